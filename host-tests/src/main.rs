@@ -13,6 +13,7 @@ use host_tests::{
 };
 use scanbeam::frame::Paid;
 use std::error::Error;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -152,6 +153,7 @@ fn write(args: &RenderArgs, drawn: &Drawn) -> Result<(), Box<dyn Error>> {
 /// Draws a scene file to a picture.
 fn render_scene(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let loaded = Loaded::load(&args.model)?;
+    args.check_apart(loaded.files.iter().map(PathBuf::as_path))?;
     let file = args.model.display();
     let (view, format) = (loaded.scene.view(), loaded.scene.pixel_format());
     let drawn = draw::SceneParts::new(&loaded).and_then(|parts| {
@@ -173,6 +175,7 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         return render_scene(args);
     }
     let model = Model::load(&args.model)?;
+    args.check_apart(model.files())?;
     let textures = match args.method() {
         // The hardware model has none.
         Method::Interp(InterpArg::Model) => TextureSet::default(),

@@ -121,3 +121,4 @@ mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;
 mod watertight;
+mod written;

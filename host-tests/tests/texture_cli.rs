@@ -109,7 +109,7 @@ fn textures_that_cannot_be_read_are_refused() {
     fs::create_dir(desk.path("folder.png")).unwrap();
     desk.refused(&format!("{DRAW} --texture folder.png"), "folder.png");
     // The texture itself is not written over, and flags that do not go together are named.
-    desk.refused("render m.obj -o t.png --texture t.png", "texture");
+    desk.refused("render m.obj -o t.png --texture t.png", "t.png, which");
     desk.refused(
         &format!("{DRAW} --texture t.png --interp model"),
         "--texture",

@@ -3,7 +3,8 @@
 use crate::args::{PictureArgs, PixelFormatArg, ShadeArg};
 use crate::image_out::ImageFormat;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use host_support::apart::apart;
+use std::path::{Path, PathBuf};
 
 /// Flags of `bake`.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -119,10 +120,16 @@ impl BakeArgs {
         if !extension.is_some_and(|e| known.iter().any(|k| e == *k)) {
             return Err("the model must be .obj, .gltf or .glb".into());
         }
-        if self.output == self.model {
-            return Err("-o must not be the model itself".into());
-        }
-        Ok(())
+        self.check_apart([self.model.as_path()])
+    }
+
+    /// Whether the list is none of the files that are read: those, and the flags' picture.
+    pub(crate) fn check_apart<'p>(
+        &'p self,
+        read: impl IntoIterator<Item = &'p Path>,
+    ) -> Result<(), String> {
+        let read = read.into_iter().chain(self.texture.as_deref());
+        apart(&[("-o", &self.output)], read)
     }
 }
 
@@ -141,10 +148,7 @@ impl RunListArgs {
             return Ok(());
         };
         ImageFormat::from_path(output).map_err(|error| error.to_string())?;
-        if *output == self.list {
-            return Err("-o must not be the list itself".into());
-        }
-        Ok(())
+        apart(&[("-o", output)], [self.list.as_path()])
     }
 }
 

@@ -129,6 +129,7 @@ fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
     } else {
         gltf::load(&args.model)?
     };
+    args.check_apart(loaded.model.files())?;
     if let Some(file) = &args.texture {
         // The last material, which no triangle has had, is for those without.
         let one = Picture::new(&read_image(file)?)?;

@@ -5,20 +5,19 @@
 //! Pictures are PNG or JPEG. Their texture places are those of the set that the material names.
 
 mod check;
+mod files;
 
 use super::texels::Picture;
 use crate::image_out::decode_image;
 use crate::model::{Material, Model, ModelError, ModelVertex};
 use crate::stdio;
-use base64::Engine as _;
+use files::Files;
 use gltf::buffer::Source;
 use gltf::mesh::Mode;
 use gltf::texture::WrappingMode;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Largest buffer that is read, in bytes.
-const MAX_BUFFER: u64 = 1 << 30;
 /// Most nodes that are placed, each as often as it stands in the tree.
 const MAX_NODES: usize = 1 << 16;
 
@@ -44,11 +43,12 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
     let bytes =
         std::fs::read(path).map_err(|e| wrong(format!("cannot be read: {}", stdio::reason(&e))))?;
     let gltf = check::document(&bytes).map_err(wrong)?;
+    let mut files = Files::new(path);
     let mut buffers = Vec::new();
     for buffer in gltf.buffers() {
         let data = match buffer.source() {
             Source::Bin => gltf.blob.clone().ok_or("the binary part is missing".into()),
-            Source::Uri(uri) => buffer_of(uri, path),
+            Source::Uri(uri) => files.bytes(uri),
         }
         .map_err(|e: String| wrong(format!("buffer {}: {e}", buffer.index())))?;
         if data.len() < buffer.length() {
@@ -70,7 +70,7 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         let picture = info.map(|info| {
             let number = info.texture().source().index();
             let named = |reason| wrong(format!("picture {number}: {reason}"));
-            picture_of(&info.texture(), &buffers, path, &mut |reason| {
+            picture_of(&info.texture(), &buffers, &mut files, &mut |reason| {
                 reader.model.warnings.push(named(reason));
             })
             .map_err(named)
@@ -103,6 +103,7 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         let n = reader.without_area;
         warn(format!("primitives of points and lines are left out: {n}"));
     }
+    reader.model.sources = files.read;
     Ok(Loaded {
         model: reader.model,
         pictures,
@@ -113,11 +114,11 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
 fn picture_of(
     texture: &gltf::Texture<'_>,
     buffers: &[Vec<u8>],
-    path: &Path,
+    files: &mut Files<'_>,
     warn: &mut impl FnMut(String),
 ) -> Result<Picture, String> {
     let frame = match texture.source().source() {
-        gltf::image::Source::Uri { uri, .. } => decode_image(&buffer_of(uri, path)?)?,
+        gltf::image::Source::Uri { uri, .. } => decode_image(&files.bytes(uri)?)?,
         gltf::image::Source::View { view, .. } => {
             let buffer = buffers.get(view.buffer().index()).map(Vec::as_slice);
             let end = view.offset().checked_add(view.length());
@@ -144,31 +145,6 @@ fn level(linear: f32) -> f64 {
         // Exactly 1 at 1, which the rounded constants miss by one unit in the last place.
         1.0 - 1.055 * (1.0 - v.powf(1.0 / 2.4))
     }
-}
-
-fn buffer_of(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let (_, text) = data.split_once("base64,").ok_or("data is not in base64")?;
-        return base64::engine::general_purpose::STANDARD
-            .decode(text)
-            .map_err(|e| e.to_string());
-    }
-    // A name in the folder of the file: nothing above it, and nothing elsewhere.
-    let name = Path::new(uri);
-    let plain = name
-        .components()
-        .all(|c| matches!(c, std::path::Component::Normal(_)));
-    if !plain || uri.contains(':') {
-        return Err(format!("{uri:?} is not a file in the same folder"));
-    }
-    let file = path.parent().unwrap_or(Path::new("")).join(name);
-    let size = std::fs::metadata(&file)
-        .map_err(|e| format!("{uri:?}: {}", stdio::reason(&e)))?
-        .len();
-    if size > MAX_BUFFER {
-        return Err(format!("{uri:?} is too large"));
-    }
-    std::fs::read(&file).map_err(|e| format!("{uri:?}: {}", stdio::reason(&e)))
 }
 
 /// Columns of a 4 x 4 matrix, as glTF has them.

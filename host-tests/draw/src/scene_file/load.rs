@@ -59,6 +59,8 @@ pub struct Loaded {
     pub scene: SceneFile,
     /// Its objects.
     pub parts: Vec<Part>,
+    /// All files that it was read from.
+    pub files: Vec<PathBuf>,
 }
 
 impl Loaded {
@@ -74,7 +76,7 @@ impl Loaded {
         let text = std::fs::read_to_string(file).map_err(|error| wrong(error.to_string()))?;
         let scene = SceneFile::parse(&text).map_err(wrong)?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        let mut parts = Vec::new();
+        let (mut parts, mut files) = (Vec::new(), vec![file.to_path_buf()]);
         for (number, item) in scene.objects.iter().enumerate() {
             let part = Part::load(item, folder, scene.has_palettes())?;
             part.check().map_err(|reason| SceneFileError::Object {
@@ -82,9 +84,15 @@ impl Loaded {
                 number,
                 reason,
             })?;
+            files.extend(part.model.files().map(Path::to_path_buf));
+            files.extend(item.texture.iter().map(|picture| folder.join(picture)));
             parts.push(part);
         }
-        Ok(Self { scene, parts })
+        Ok(Self {
+            scene,
+            parts,
+            files,
+        })
     }
 
     /// What is not as in the files, or is left out of them, a line each.

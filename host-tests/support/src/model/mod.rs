@@ -87,6 +87,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// What the files ask for and is left out, in the order of its discovery; the rest is drawn.
     pub warnings: Vec<ModelError>,
+    /// The files that it was read from, without the pictures that `materials` name.
+    pub sources: Vec<PathBuf>,
 }
 
 impl Model {
@@ -96,7 +98,9 @@ impl Model {
     /// See [`ModelError`]: unreadable file, malformed line, index out of range, number that is not finite.
     pub fn load(path: &Path) -> Result<Self, ModelError> {
         let text = read_text(path)?;
-        Self::from_obj_text(&text, path)
+        let mut model = Self::from_obj_text(&text, path)?;
+        model.sources.push(path.to_path_buf());
+        Ok(model)
     }
 
     /// Reads OBJ text. `file` names it in errors, and its folder is where MTL files are looked for.
@@ -105,6 +109,12 @@ impl Model {
     /// As [`Model::load`].
     pub fn from_obj_text(text: &str, file: &Path) -> Result<Self, ModelError> {
         obj::read(text, file)
+    }
+
+    /// All files that are read with it: its own, and the pictures of its materials.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let pictures = self.materials.iter().filter_map(|m| m.map_kd.as_ref());
+        self.sources.iter().chain(pictures).map(PathBuf::as_path)
     }
 
     /// Prints the warnings on stderr, a line each.

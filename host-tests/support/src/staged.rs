@@ -1,0 +1,93 @@
+//! Files that are written in full beside their places, and come into being together or not at all.
+
+use crate::image_out::{ImageError, cannot};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Writes all bytes or, on error, leaves what was there before.
+///
+/// # Errors
+/// The folder is missing, or anything that the file system refuses.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+    Staged::new(path, bytes)?.commit()
+}
+
+/// A file that is written in full beside its place, but not yet there: so that several files
+/// come into being together or not at all. Dropping it leaves nothing.
+pub struct Staged<'a> {
+    file: tempfile::NamedTempFile,
+    /// As it was named.
+    path: &'a Path,
+    /// Where it goes.
+    place: PathBuf,
+}
+
+impl<'a> Staged<'a> {
+    /// Writes the bytes into the folder of `path`, or where `path` is a symbolic link, of what it
+    /// leads to: the link stays, and the file behind it is replaced.
+    ///
+    /// # Errors
+    /// The folder is missing, there is a folder or a device in the file's place, or anything that
+    /// the file system refuses.
+    pub fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, ImageError> {
+        let place = behind_links(path)?;
+        let file = stage(path, &place, bytes)?;
+        match std::fs::metadata(&place) {
+            Ok(there) if there.is_dir() => Err(ImageError::new(path, "is a folder")),
+            Ok(there) if !there.is_file() => Err(ImageError::new(path, "is no ordinary file")),
+            _ => Ok(Self { file, path, place }),
+        }
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// Anything that the file system refuses.
+    pub fn commit(self) -> Result<(), ImageError> {
+        let persisted = self.file.persist(&self.place);
+        match persisted {
+            Ok(_) => Ok(()),
+            Err(error) => Err(ImageError::new(self.path, cannot("written", &error.error))),
+        }
+    }
+}
+
+/// The folder of a file.
+pub(crate) fn folder_of(place: &Path) -> &Path {
+    match place.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Where a file of that name is written: behind all symbolic links, also behind one that leads to
+/// nothing yet.
+pub(crate) fn behind_links(path: &Path) -> Result<PathBuf, ImageError> {
+    /// As many as Linux follows.
+    const LINKS: usize = 40;
+    let mut place = path.to_path_buf();
+    for _ in 0..=LINKS {
+        let Ok(target) = std::fs::read_link(&place) else {
+            return Ok(place);
+        };
+        place = place.parent().unwrap_or(Path::new("")).join(target);
+    }
+    Err(ImageError::new(path, "its symbolic links lead in a circle"))
+}
+
+/// A temporary file with the bytes, in the folder of `place`; errors name `path`.
+fn stage(path: &Path, place: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile, ImageError> {
+    let cannot_write = |error: std::io::Error| ImageError::new(path, cannot("written", &error));
+    let folder = folder_of(place);
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".scanbeam-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As an ordinary new file: the umask takes away from this.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder).map_err(cannot_write)?;
+    file.write_all(bytes).map_err(cannot_write)?;
+    Ok(file)
+}
