@@ -142,12 +142,12 @@ fn skins<'s>(args: &RenderArgs, set: &'s TextureSet) -> draw::Skins<'s> {
 /// Writes a picture and, where they are asked for, its figures: both files, or none.
 fn write(args: &RenderArgs, drawn: &Drawn) -> Result<(), Box<dyn Error>> {
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
-    if let Some(path) = &args.stats {
-        let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
-        text.push('\n');
-        Staged::new(path, text.as_bytes())?.commit()?;
-    }
-    Ok(picture.commit()?)
+    let Some(path) = &args.stats else {
+        return Ok(picture.commit()?);
+    };
+    let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
+    text.push('\n');
+    Ok(Staged::new(path, text.as_bytes())?.commit_with(picture)?)
 }
 
 /// Draws a scene file to a picture.

@@ -50,6 +50,40 @@ impl<'a> Staged<'a> {
             Err(error) => Err(ImageError::new(self.path, cannot("written", &error.error))),
         }
     }
+
+    /// Puts this file and another in their places: where the other cannot be there, what was in the place of this one
+    /// is there again.
+    ///
+    /// # Errors
+    /// Anything that the file system refuses.
+    pub fn commit_with(self, other: Staged<'_>) -> Result<(), ImageError> {
+        let (path, place) = (self.path, self.place.clone());
+        let refused = |error| ImageError::new(path, cannot("written", &error));
+        let old = aside(&place).map_err(refused)?;
+        let done = self.commit();
+        let is_there = done.is_ok();
+        let Err(error) = done.and_then(|()| other.commit()) else {
+            return Ok(());
+        };
+        match old {
+            Some(old) => old.persist(&place).map_err(|e| refused(e.error))?,
+            None if is_there => std::fs::remove_file(&place).map_err(refused)?,
+            None => {}
+        }
+        Err(error)
+    }
+}
+
+/// What is in a place, moved aside; dropping it removes it.
+fn aside(place: &Path) -> std::io::Result<Option<tempfile::TempPath>> {
+    if !place.exists() {
+        return Ok(None);
+    }
+    let mut builder = tempfile::Builder::new();
+    let name = builder.prefix(".scanbeam-").tempfile_in(folder_of(place))?;
+    let name = name.into_temp_path();
+    std::fs::rename(place, &name)?;
+    Ok(Some(name))
 }
 
 /// The folder of a file.
