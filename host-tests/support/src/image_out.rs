@@ -308,10 +308,33 @@ pub fn decode_image(bytes: &[u8]) -> Result<Frame, String> {
     }
 }
 
+/// Whether a JPEG goes on to its end marker: the decoder makes up what is missing.
+fn has_jpeg_end(bytes: &[u8]) -> bool {
+    // In pixels 0xFF is followed by 0, and restarts have no length.
+    let is_marker = |two: &[u8]| two[0] == 0xFF && !matches!(two[1], 0 | 1 | 0xD0..=0xD7 | 0xFF);
+    let mut rest = bytes.get(2..).unwrap_or_default();
+    while let Some(at) = rest.windows(2).position(is_marker) {
+        rest = &rest[at + 1..];
+        match *rest {
+            [0xD9, ..] => return true,
+            [_, high, low, ..] => {
+                let segment = 1 + usize::from(u16::from_be_bytes([high, low]));
+                rest = rest.get(segment..).unwrap_or_default();
+            }
+            _ => return false,
+        }
+    }
+    false
+}
+
 fn decode_jpeg(bytes: &[u8]) -> Result<Frame, String> {
+    if !has_jpeg_end(bytes) {
+        return Err("is not a good JPEG: it has no end".into());
+    }
     let malformed = |error: DecodeErrors| format!("is not a good JPEG: {error}");
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGB)
+        .set_strict_mode(true)
         .set_max_width(MAX_SIDE as usize)
         .set_max_height(MAX_SIDE as usize);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
