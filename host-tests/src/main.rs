@@ -179,7 +179,9 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let textures = match args.method() {
         // The hardware model has none.
         Method::Interp(InterpArg::Model) => TextureSet::default(),
-        _ => TextureSet::load(&model, args.texture.as_deref())?.with_levels(args.levels.is_on()),
+        _ => TextureSet::load(&model, args.texture.as_deref())
+            .map_err(|error| error.named(&args.model))?
+            .with_levels(args.levels.is_on()),
     };
     if args.pace.is_some() && args.levels.is_on() && !textures.is_empty() {
         let model = args.model.display();
