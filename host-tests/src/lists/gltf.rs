@@ -202,7 +202,9 @@ impl Reader<'_> {
         let matrix = product(&parent, &own);
         if let Some(mesh) = node.mesh() {
             for primitive in mesh.primitives() {
-                self.primitive(&primitive, &matrix)?;
+                let (of, number) = (mesh.index(), primitive.index());
+                self.primitive(&primitive, &matrix)
+                    .map_err(|reason| format!("mesh {of}, primitive {number}: {reason}"))?;
             }
         }
         for child in node.children() {
@@ -228,7 +230,7 @@ impl Reader<'_> {
         }
         let reader = primitive.reader(|b| buffers.get(b.index()).map(Vec::as_slice));
         let Some(positions) = reader.read_positions() else {
-            return Err("a primitive has no positions".into());
+            return Err("it has no positions".into());
         };
         let positions: Vec<[f64; 3]> = positions.map(|p| placed(matrix, p)).collect();
         if positions
@@ -275,6 +277,9 @@ impl Reader<'_> {
         let kd = material.pbr_metallic_roughness().base_color_factor();
         let colours: Option<Vec<[f32; 3]>> =
             reader.read_colors(0).map(|c| c.into_rgb_f32().collect());
+        if colours.iter().flatten().flatten().any(|c| !c.is_finite()) {
+            return Err("a colour is not finite".into());
+        }
         let info = material.pbr_metallic_roughness().base_color_texture();
         let places: Option<Vec<[f32; 2]>> = info
             .and_then(|info| reader.read_tex_coords(info.tex_coord()))
@@ -316,6 +321,9 @@ fn placed(m: &Matrix, p: [f32; 3]) -> [f64; 3] {
 
 fn triangles_of(mode: Mode, i: &[u32]) -> Result<Vec<[u32; 3]>, String> {
     let three = |w: &[u32]| [w[0], w[1], w[2]];
+    if i.len() < 3 || mode == Mode::Triangles && i.len() % 3 != 0 {
+        return Err(format!("{} corners are no whole triangles", i.len()));
+    }
     Ok(match mode {
         Mode::Triangles => i.chunks_exact(3).map(three).collect(),
         Mode::TriangleStrip => i

@@ -1,0 +1,188 @@
+//! glTF from outside: what contradicts itself or is too much is refused with its mesh and primitive, and what a list
+//! cannot keep is told.
+
+use crate::command_line::Desk;
+use base64::Engine as _;
+use host_tests::image_out::{Frame, write_image};
+use serde_json::{Value, json};
+use std::fs;
+
+/// A document and its buffer.
+struct Document {
+    value: Value,
+    bytes: Vec<u8>,
+}
+
+impl Document {
+    /// A square of two triangles.
+    fn new() -> Self {
+        let value = json!({
+            "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+            "meshes": [{ "primitives": [{ "attributes": {} }] }], "accessors": [], "bufferViews": [],
+        });
+        let bytes = Vec::new();
+        let mut document = Self { value, bytes };
+        document.has(
+            "POSITION",
+            "VEC3",
+            &[0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0].map(|c| c as f32),
+        );
+        let [low, high] = [[0, 0, 0], [1, 1, 0]];
+        document.value["accessors"][0]["min"] = json!(low);
+        document.value["accessors"][0]["max"] = json!(high);
+        document.corners(&[0, 1, 2, 0, 2, 3]);
+        document
+    }
+
+    /// The same with a picture `p.png` on it.
+    fn pictured() -> Self {
+        let mut document = Self::new();
+        document.has(
+            "TEXCOORD_0",
+            "VEC2",
+            &[0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0],
+        );
+        document
+            .material(json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }));
+        document.value["textures"] = json!([{ "source": 0 }]);
+        document.value["images"] = json!([{ "uri": "p.png" }]);
+        document
+    }
+
+    fn primitive(&mut self) -> &mut Value {
+        &mut self.value["meshes"][0]["primitives"][0]
+    }
+
+    fn material(&mut self, material: Value) {
+        self.value["materials"] = json!([material]);
+        self.primitive()["material"] = json!(0);
+    }
+
+    fn accessor(&mut self, kind: u32, shape: &str, count: usize, bytes: &[u8]) -> usize {
+        let view =
+            json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        self.bytes.extend(bytes);
+        let views = self.value["bufferViews"].as_array_mut().unwrap();
+        views.push(view);
+        let accessor = json!({
+            "bufferView": views.len() - 1, "componentType": kind, "count": count, "type": shape,
+        });
+        let accessors = self.value["accessors"].as_array_mut().unwrap();
+        accessors.push(accessor);
+        accessors.len() - 1
+    }
+
+    /// Gives it an attribute.
+    fn has(&mut self, name: &str, shape: &str, numbers: &[f32]) {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|c| c.to_le_bytes()).collect();
+        let each = shape.as_bytes()[3] - b'0';
+        let number = self.accessor(5126, shape, numbers.len() / usize::from(each), &bytes);
+        self.primitive()["attributes"][name] = json!(number);
+    }
+
+    /// Gives it corners.
+    fn corners(&mut self, corners: &[u32]) {
+        let bytes: Vec<u8> = corners.iter().flat_map(|c| c.to_le_bytes()).collect();
+        let number = self.accessor(5125, "SCALAR", corners.len(), &bytes);
+        self.primitive()["indices"] = json!(number);
+    }
+
+    fn text(&self) -> String {
+        let data = base64::engine::general_purpose::STANDARD.encode(&self.bytes);
+        let mut value = self.value.clone();
+        value["buffers"] = json!([{
+            "byteLength": self.bytes.len(), "uri": format!("data:;base64,{data}"),
+        }]);
+        value.to_string()
+    }
+}
+
+/// A folder with a picture in it.
+fn desk() -> Desk {
+    let desk = Desk::new("");
+    write_image(&desk.path("p.png"), &Frame::new(1, 1, vec![9; 3]).unwrap()).unwrap();
+    desk
+}
+
+/// What is told of a document that is refused.
+fn refused(desk: &Desk, document: &Document) -> String {
+    fs::write(desk.path("m.gltf"), document.text()).unwrap();
+    desk.refused("bake m.gltf -o m.list")
+}
+
+/// What is told of a document that is baked.
+fn told(desk: &Desk, document: &Document) -> String {
+    fs::write(desk.path("m.gltf"), document.text()).unwrap();
+    let output = desk.run("bake m.gltf -o m.list");
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    text
+}
+
+/// Kills: fewer normals, colours or texture places than positions, the rest made up; colours that are no numbers, made
+/// black; corners that are no triangle, left out; a picture drawn by places that are not there.
+#[test]
+fn primitives_that_contradict_themselves_are_refused() {
+    let desk = desk();
+    let is_refused = |document: &Document, reason: &str| {
+        let text = refused(&desk, document);
+        let want = format!("error: m.gltf: mesh 0, primitive 0: {reason}\n");
+        assert_eq!(text, want);
+    };
+    assert_eq!(told(&desk, &Document::new()), "");
+    assert_eq!(told(&desk, &Document::pictured()), "");
+    for (name, shape, each) in [
+        ("NORMAL", "VEC3", 3),
+        ("COLOR_0", "VEC3", 3),
+        ("TEXCOORD_0", "VEC2", 2),
+    ] {
+        for count in [1, 3, 5] {
+            let mut document = Document::pictured();
+            document.has(name, shape, &vec![1.0; each * count]);
+            is_refused(
+                &document,
+                &format!("it has {count} of {name} for 4 positions"),
+            );
+        }
+    }
+    for wrong in [f32::NAN, f32::INFINITY] {
+        for at in 0..12 {
+            let mut document = Document::new();
+            let mut levels = [0.5; 12];
+            levels[at] = wrong;
+            document.has("COLOR_0", "VEC3", &levels);
+            is_refused(&document, "a colour is not finite");
+        }
+    }
+    for (mode, count) in [(4, 4), (4, 5), (4, 2), (5, 2), (6, 1)] {
+        let mut document = Document::new();
+        document.corners(&vec![0; count]);
+        document.primitive()["mode"] = json!(mode);
+        is_refused(
+            &document,
+            &format!("{count} corners are no whole triangles"),
+        );
+    }
+    let mut without = Document::new();
+    without
+        .primitive()
+        .as_object_mut()
+        .unwrap()
+        .remove("indices");
+    is_refused(&without, "4 corners are no whole triangles");
+    let mut document = Document::pictured();
+    document.value["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] =
+        json!(1);
+    is_refused(&document, "its picture needs TEXCOORD_1, which it has not");
+    document.has("TEXCOORD_1", "VEC2", &[0.0; 8]);
+    assert_eq!(told(&desk, &document), "");
+    // The second of a mesh is named.
+    let good = Document::new().primitive().clone();
+    let mut second = without.value["meshes"][0].clone();
+    second["primitives"].as_array_mut().unwrap().insert(0, good);
+    let mut document = Document::new();
+    document.value["meshes"] = json!([document.value["meshes"][0], second]);
+    document.value["nodes"][0]["mesh"] = json!(1);
+    let text = refused(&desk, &document);
+    assert!(text.contains("mesh 1, primitive 1: 4 corners"), "{text}");
+}
