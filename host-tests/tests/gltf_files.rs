@@ -186,3 +186,33 @@ fn primitives_that_contradict_themselves_are_refused() {
     let text = refused(&desk, &document);
     assert!(text.contains("mesh 1, primitive 1: 4 corners"), "{text}");
 }
+
+/// A small file places one mesh thousands of times: too many vertices, or too many corners. Kills: a sum over meshes
+/// but not over their places; vertices alone or corners alone.
+#[test]
+fn what_is_placed_too_often_is_refused() {
+    let desk = desk();
+    let placed = |vertices: usize, corners: usize, times: usize| {
+        let mut document = Document::new();
+        document.has("POSITION", "VEC3", &vec![0.0; 3 * vertices]);
+        let number = document.value["accessors"].as_array().unwrap().len() - 1;
+        document.value["accessors"][number]["min"] = json!([0, 0, 0]);
+        document.value["accessors"][number]["max"] = json!([0, 0, 0]);
+        document.corners(&vec![0; corners]);
+        document.value["nodes"] = json!([{ "children": vec![1; times] }, { "mesh": 0 }]);
+        document
+    };
+    let too_much = "as often as its meshes are placed they have";
+    for (vertices, corners, times) in [(3_600, 3, 65_000), (4_096, 3, 2_049), (3, 24_576, 1_025)] {
+        let text = refused(&desk, &placed(vertices, corners, times));
+        let sums = format!(
+            "{too_much} {} vertices and {} corners",
+            vertices * times,
+            corners * times
+        );
+        assert!(text.contains(&sums), "{text}");
+    }
+    for (vertices, corners, times) in [(4_096, 3, 20), (3, 24_576, 20)] {
+        assert_eq!(told(&desk, &placed(vertices, corners, times)), "");
+    }
+}

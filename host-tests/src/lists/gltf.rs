@@ -20,6 +20,10 @@ use std::path::Path;
 
 /// Most nodes that are placed, each as often as it stands in the tree.
 const MAX_NODES: usize = 1 << 16;
+/// Most vertices of all meshes, each as often as it is placed.
+const MAX_VERTICES: usize = 1 << 23;
+/// Most corners of triangles, strips and fans, likewise.
+const MAX_CORNERS: usize = 3 << 23;
 
 /// A model, and for each of its materials the picture on it.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,9 +63,7 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
     let mut reader = Reader {
         buffers: &buffers,
         model: Model::default(),
-        nodes: 0,
         without_area: 0,
-        above: HashSet::new(),
     };
     let mut pictures = Vec::new();
     for material in gltf.materials() {
@@ -90,8 +92,13 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         Some(scene) => vec![scene],
         None => gltf.scenes().take(1).collect(),
     };
+    let mut placed = Placed::default();
     for node in scenes.iter().flat_map(|scene| scene.nodes()) {
-        reader.node(&node, IDENTITY).map_err(wrong)?;
+        placed.node(&node, IDENTITY).map_err(wrong)?;
+    }
+    placed.check().map_err(wrong)?;
+    for (mesh, matrix) in &placed.meshes {
+        reader.mesh(mesh, matrix).map_err(wrong)?;
     }
     let mut warn = |reason: String| reader.model.warnings.push(wrong(reason));
     if scenes.is_empty() {
@@ -185,32 +192,69 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 struct Reader<'b> {
     buffers: &'b [Vec<u8>],
     model: Model,
-    nodes: usize,
     /// Primitives of points and lines.
     without_area: usize,
+}
+
+/// The meshes of a scene, each as often as it stands in the tree, and where.
+#[derive(Default)]
+struct Placed<'d> {
+    meshes: Vec<(gltf::Mesh<'d>, Matrix)>,
+    nodes: usize,
     /// The nodes above the one at work, so that a circle is noticed.
     above: HashSet<usize>,
 }
 
-impl Reader<'_> {
-    fn node(&mut self, node: &gltf::Node<'_>, parent: Matrix) -> Result<(), String> {
+impl<'d> Placed<'d> {
+    fn node(&mut self, node: &gltf::Node<'d>, parent: Matrix) -> Result<(), String> {
         self.nodes += 1;
         if self.nodes > MAX_NODES || self.above.len() > 256 || !self.above.insert(node.index()) {
             return Err("its nodes are too many, or stand in a circle".into());
         }
         let own = node.transform().matrix().map(|c| c.map(f64::from));
         let matrix = product(&parent, &own);
-        if let Some(mesh) = node.mesh() {
-            for primitive in mesh.primitives() {
-                let (of, number) = (mesh.index(), primitive.index());
-                self.primitive(&primitive, &matrix)
-                    .map_err(|reason| format!("mesh {of}, primitive {number}: {reason}"))?;
-            }
-        }
+        self.meshes.extend(node.mesh().map(|mesh| (mesh, matrix)));
         for child in node.children() {
             self.node(&child, matrix)?;
         }
         self.above.remove(&node.index());
+        Ok(())
+    }
+
+    /// Whether all of it is no more than what is read, before any of it is.
+    fn check(&self) -> Result<(), String> {
+        let primitives = self.meshes.iter().flat_map(|(mesh, _)| mesh.primitives());
+        let sizes = primitives.map(|primitive| {
+            let vertices = primitive
+                .get(&gltf::Semantic::Positions)
+                .map_or(0, |a| a.count());
+            [
+                vertices,
+                primitive.indices().map_or(vertices, |a| a.count()),
+            ]
+        });
+        let sums = sizes.fold([0; 2], |sums: [usize; 2], size| {
+            [0, 1].map(|i| sums[i].saturating_add(size[i]))
+        });
+        match sums {
+            [vertices, corners] if vertices > MAX_VERTICES || corners > MAX_CORNERS => {
+                Err(format!(
+                    "as often as its meshes are placed they have {vertices} vertices and {corners} corners, \
+                 of at most {MAX_VERTICES} and {MAX_CORNERS}"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Reader<'_> {
+    fn mesh(&mut self, mesh: &gltf::Mesh<'_>, matrix: &Matrix) -> Result<(), String> {
+        for primitive in mesh.primitives() {
+            let (of, number) = (mesh.index(), primitive.index());
+            self.primitive(&primitive, matrix)
+                .map_err(|reason| format!("mesh {of}, primitive {number}: {reason}"))?;
+        }
         Ok(())
     }
 
