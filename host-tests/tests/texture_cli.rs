@@ -157,6 +157,8 @@ fn materials_whose_pictures_cannot_be_read_are_refused() {
         "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
     );
     let placeless = "m.obj: the model has no texture places (vt)";
+    desk.refused("bake m.obj -o m.list", placeless);
+    desk.refused("bake m.obj -o m.list --texture t.png", placeless);
     desk.refused(DRAW, placeless);
     desk.refused("view m.obj --frames 1", placeless);
 }

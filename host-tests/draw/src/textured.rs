@@ -95,10 +95,9 @@ impl TextureSet {
 
     /// The set, unless its model has no texture places.
     pub(crate) fn placed(self, model: &Model) -> Result<Self, TextureSetError> {
-        let placeless = model.vertices.iter().all(|v| v.uv == [0.0; 2]);
-        match placeless && !model.vertices.is_empty() && !self.is_empty() {
-            true => Err(TextureSetError::NoPlaces),
-            false => Ok(self),
+        match self.is_empty() || model.has_places() {
+            true => Ok(self),
+            false => Err(TextureSetError::NoPlaces),
         }
     }
 

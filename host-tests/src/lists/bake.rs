@@ -14,6 +14,7 @@ use super::fields::{Grid, Packed, degrees_between, normal_fields};
 use super::gltf::{self, Loaded};
 use super::sizes;
 use super::texels::{Picture, Texels};
+use crate::draw::TextureSetError;
 use crate::image_out::{read_image, write_atomically};
 use crate::lists::writer::ListWriter;
 use crate::model::Model;
@@ -130,6 +131,10 @@ fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
         gltf::load(&args.model)?
     };
     args.check_apart(loaded.model.files())?;
+    let is_pictured = obj && loaded.pictures.iter().any(Option::is_some);
+    if (is_pictured || args.texture.is_some()) && !loaded.model.has_places() {
+        return Err(TextureSetError::NoPlaces.named(&args.model).into());
+    }
     if let Some(file) = &args.texture {
         // The last material, which no triangle has had, is for those without.
         let one = Picture::new(&read_image(file)?)?;

@@ -111,6 +111,12 @@ impl Model {
         obj::read(text, file)
     }
 
+    /// Whether textures have places on it: one of its vertices has, or it has none.
+    #[must_use]
+    pub fn has_places(&self) -> bool {
+        self.vertices.is_empty() || self.vertices.iter().any(|v| v.uv != [0.0; 2])
+    }
+
     /// All files that are read with it: its own, and the pictures of its materials.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let pictures = self.materials.iter().filter_map(|m| m.map_kd.as_ref());
