@@ -216,3 +216,32 @@ fn what_is_placed_too_often_is_refused() {
         assert_eq!(told(&desk, &placed(vertices, corners, times)), "");
     }
 }
+
+/// Kills: names as they are written; codes that lead out of the folder; a `%` that is no code.
+#[test]
+fn names_of_files_are_decoded() {
+    let desk = desk();
+    let picture = fs::read(desk.path("p.png")).unwrap();
+    fs::create_dir(desk.path("d")).unwrap();
+    for (uri, name) in [
+        ("a%20b.png", "a b.png"),
+        ("%C3%a4.png", "ä.png"),
+        ("d%2Fq.png", "d/q.png"),
+        ("100%.png", "100%.png"),
+        ("5%2", "5%2"),
+        ("%zz%FF.png", "%zz%FF.png"),
+    ] {
+        let mut document = Document::pictured();
+        document.value["images"][0]["uri"] = json!(uri);
+        let text = refused(&desk, &document);
+        assert!(text.contains(&format!("{uri:?}: No such file")), "{text}");
+        fs::write(desk.path(name), &picture).unwrap();
+        assert_eq!(told(&desk, &document), "", "{uri}");
+    }
+    for uri in ["%2E%2E/p.png", "%2Fp.png", "d/%2e%2e/p.png", "file:p.png"] {
+        let mut document = Document::pictured();
+        document.value["images"][0]["uri"] = json!(uri);
+        let text = refused(&desk, &document);
+        assert!(text.contains("is not a file in the same folder"), "{text}");
+    }
+}

@@ -32,7 +32,8 @@ impl<'p> Files<'p> {
                 .map_err(|e| e.to_string());
         }
         // A name in the folder of the file: nothing above it, and nothing elsewhere.
-        let name = Path::new(uri);
+        let name = decoded(uri);
+        let name = Path::new(&name);
         let plain = name.components().all(|c| matches!(c, Component::Normal(_)));
         if !plain || uri.contains(':') {
             return Err(format!("{uri:?} is not a file in the same folder"));
@@ -46,4 +47,21 @@ impl<'p> Files<'p> {
         self.read.push(file);
         Ok(bytes)
     }
+}
+
+/// A URI's name of a file: `%20` is a space, and so on. What is no text then, or no such code, is as it is written.
+fn decoded(uri: &str) -> String {
+    let mut bytes = Vec::new();
+    let mut rest = uri.as_bytes();
+    while let [first, after @ ..] = rest {
+        let code = match (first, after) {
+            (b'%', [high, low, ..]) => [high, low].map(|c| char::from(*c).to_digit(16)),
+            _ => [None; 2],
+        };
+        (rest, _) = match code {
+            [Some(high), Some(low)] => (&after[2..], bytes.push((16 * high + low) as u8)),
+            _ => (after, bytes.push(*first)),
+        };
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| uri.to_owned())
 }
