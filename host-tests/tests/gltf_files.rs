@@ -245,3 +245,106 @@ fn names_of_files_are_decoded() {
         assert!(text.contains("is not a file in the same folder"), "{text}");
     }
 }
+
+/// Kills: a kind that is not told, or told where there is none; what is told once a use instead of once; alphas told of
+/// what is opaque anyway.
+#[test]
+fn what_a_list_cannot_keep_is_told_once_a_kind() {
+    let desk = desk();
+    let all_told = |document: &Document, lines: &[&str]| {
+        let line = |line: &&str| format!("warning: m.gltf: {line}\n");
+        assert_eq!(
+            told(&desk, document),
+            lines.iter().map(line).collect::<String>()
+        );
+    };
+    let with = |pointer: &str, value: Value| {
+        let mut document = Document::pictured();
+        let (parent, name) = pointer.rsplit_once('/').unwrap();
+        document.value.pointer_mut(parent).unwrap()[name] = value;
+        document
+    };
+    let material = |name: &str, value| with(&format!("/materials/0/{name}"), value);
+    all_told(
+        &material("doubleSided", json!(true)),
+        &["doubleSided of materials is left out: 1"],
+    );
+    all_told(&material("doubleSided", json!(false)), &[]);
+    let mask = "alphaMode MASK of materials is left out: 1";
+    all_told(&material("alphaMode", json!("MASK")), &[mask]);
+    all_told(&material("alphaMode", json!("BLEND")), &[]);
+    let transform = json!({ "KHR_texture_transform": { "scale": [4, 4] } });
+    let mut document = with(
+        "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions",
+        transform,
+    );
+    document.value["extensionsUsed"] = json!(["KHR_texture_transform"]);
+    all_told(
+        &document,
+        &["KHR_texture_transform of materials is left out: 1"],
+    );
+    let mut document = with("/nodes/0/skin", json!(0));
+    document.value["skins"] = json!([{ "joints": [0] }]);
+    all_told(&document, &["skins of meshes are left out: 1"]);
+    let morphed = |pointer: &str, weight: f64| {
+        let mut document = with(pointer, json!([weight]));
+        document.primitive()["targets"] = json!([{ "POSITION": 0 }]);
+        document
+    };
+    for pointer in ["/meshes/0/weights", "/nodes/0/weights"] {
+        all_told(
+            &morphed(pointer, 0.5),
+            &["morph weights of meshes are left out: 1"],
+        );
+        all_told(&morphed(pointer, 0.0), &[]);
+    }
+    // Alphas of colours and of pictures mean something where the material is not opaque.
+    let colours = "alphas of meshes' COLOR_0 are left out: 1";
+    for (mode, alpha, lines) in [
+        ("BLEND", 0.5, &[colours][..]),
+        ("MASK", 0.5, &[mask, colours]),
+        ("OPAQUE", 0.5, &[]),
+        ("BLEND", 1.0, &[]),
+    ] {
+        let mut document = material("alphaMode", json!(mode));
+        let levels: Vec<f32> = (0..16)
+            .map(|at| if at == 7 { alpha } else { 1.0 })
+            .collect();
+        document.has("COLOR_0", "VEC4", &levels);
+        all_told(&document, lines);
+        // Placed twice it is told once.
+        document.value["nodes"] = json!([{ "mesh": 0 }, { "mesh": 0 }]);
+        document.value["scenes"][0]["nodes"] = json!([0, 1]);
+        all_told(&document, lines);
+    }
+    transparent(&desk, "p.png");
+    let pictures = "alphas of materials' pictures are left out: 1";
+    all_told(&material("alphaMode", json!("BLEND")), &[pictures]);
+    all_told(&material("alphaMode", json!("MASK")), &[mask, pictures]);
+    all_told(&Document::pictured(), &[]);
+    // And of OBJ.
+    fs::write(
+        desk.path("m.obj"),
+        "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nf 1/1 2/1 3/1\n",
+    )
+    .unwrap();
+    fs::write(desk.path("m.mtl"), "newmtl a\nmap_Kd p.png\n").unwrap();
+    let said = |line: &str| String::from_utf8(desk.run(line).stderr).unwrap();
+    let of_obj = "warning: m.obj: alphas of materials' pictures are left out: ";
+    assert_eq!(said("bake m.obj -o m.list"), format!("{of_obj}1\n"));
+    assert_eq!(
+        said("bake m.obj -o m.list --texture p.png"),
+        format!("{of_obj}1\n")
+    );
+    assert_eq!(said("bake m.obj -o m.list --textures drop"), "");
+}
+
+/// Writes a picture of one pixel that is half transparent.
+fn transparent(desk: &Desk, name: &str) {
+    let file = fs::File::create(desk.path(name)).unwrap();
+    let mut encoder = png::Encoder::new(file, 1, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&[9, 9, 9, 128]).unwrap();
+}

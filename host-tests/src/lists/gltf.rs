@@ -6,15 +6,18 @@
 
 mod check;
 mod files;
+mod left_out;
 
 use super::texels::Picture;
-use crate::image_out::decode_image;
+use crate::image_out::decode_cutout;
 use crate::model::{Material, Model, ModelError, ModelVertex};
 use crate::stdio;
 use files::Files;
 use gltf::buffer::Source;
+use gltf::material::AlphaMode;
 use gltf::mesh::Mode;
 use gltf::texture::WrappingMode;
+use left_out::LeftOut;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -64,29 +67,12 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         buffers: &buffers,
         model: Model::default(),
         without_area: 0,
+        left_out: LeftOut::of_materials(&gltf, &bytes),
     };
     let mut pictures = Vec::new();
     for material in gltf.materials() {
-        let [r, g, b, a] = material.pbr_metallic_roughness().base_color_factor();
-        let info = material.pbr_metallic_roughness().base_color_texture();
-        let picture = info.map(|info| {
-            let number = info.texture().source().index();
-            let named = |reason| wrong(format!("picture {number}: {reason}"));
-            picture_of(&info.texture(), &buffers, &mut files, &mut |reason| {
-                reader.model.warnings.push(named(reason));
-            })
-            .map_err(named)
-        });
-        pictures.push(picture.transpose()?);
-        reader.model.materials.push(Material {
-            name: material.name().unwrap_or("").to_owned(),
-            kd: [r, g, b].map(level),
-            d: match material.alpha_mode() {
-                gltf::material::AlphaMode::Blend => f64::from(a),
-                _ => 1.0,
-            },
-            ..Material::default()
-        });
+        let picture = reader.material(&material, &mut files);
+        pictures.push(picture.map_err(wrong)?);
     }
     let scenes: Vec<_> = match gltf.default_scene() {
         Some(scene) => vec![scene],
@@ -110,6 +96,8 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         let n = reader.without_area;
         warn(format!("primitives of points and lines are left out: {n}"));
     }
+    let left_out = (reader.left_out.lines()).chain(placed.left_out.lines());
+    left_out.for_each(warn);
     reader.model.sources = files.read;
     Ok(Loaded {
         model: reader.model,
@@ -117,30 +105,28 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
     })
 }
 
-/// The picture of a texture; `warn` takes what is left out.
+/// The picture of a texture, whether something in it is transparent, and what is left out of it.
 fn picture_of(
     texture: &gltf::Texture<'_>,
     buffers: &[Vec<u8>],
     files: &mut Files<'_>,
-    warn: &mut impl FnMut(String),
-) -> Result<Picture, String> {
-    let frame = match texture.source().source() {
-        gltf::image::Source::Uri { uri, .. } => decode_image(&files.bytes(uri)?)?,
+) -> Result<(Picture, bool, Option<&'static str>), String> {
+    let read = match texture.source().source() {
+        gltf::image::Source::Uri { uri, .. } => decode_cutout(&files.bytes(uri)?)?,
         gltf::image::Source::View { view, .. } => {
             let buffer = buffers.get(view.buffer().index()).map(Vec::as_slice);
             let end = view.offset().checked_add(view.length());
             let bytes = end.and_then(|end| buffer?.get(view.offset()..end));
-            decode_image(bytes.ok_or("it is not within its buffer")?)?
+            decode_cutout(bytes.ok_or("it is not within its buffer")?)?
         }
     };
-    let mut picture = Picture::new(&frame).map_err(|e| e.to_string())?;
+    let mut picture = Picture::new(&read.frame).map_err(|e| e.to_string())?;
     let sampler = texture.sampler();
     let wraps = [sampler.wrap_s(), sampler.wrap_t()];
     picture.clamped = wraps == [WrappingMode::ClampToEdge; 2];
-    if !picture.clamped && wraps != [WrappingMode::Repeat; 2] {
-        warn("it repeats both ways, which is not what its sampler says".into());
-    }
-    Ok(picture)
+    let is_other = !picture.clamped && wraps != [WrappingMode::Repeat; 2];
+    let told = "it repeats both ways, which is not what its sampler says";
+    Ok((picture, read.alpha.is_some(), is_other.then_some(told)))
 }
 
 /// Linear light as a level of the display.
@@ -194,6 +180,7 @@ struct Reader<'b> {
     model: Model,
     /// Primitives of points and lines.
     without_area: usize,
+    left_out: LeftOut,
 }
 
 /// The meshes of a scene, each as often as it stands in the tree, and where.
@@ -201,6 +188,7 @@ struct Reader<'b> {
 struct Placed<'d> {
     meshes: Vec<(gltf::Mesh<'d>, Matrix)>,
     nodes: usize,
+    left_out: LeftOut,
     /// The nodes above the one at work, so that a circle is noticed.
     above: HashSet<usize>,
 }
@@ -213,6 +201,7 @@ impl<'d> Placed<'d> {
         }
         let own = node.transform().matrix().map(|c| c.map(f64::from));
         let matrix = product(&parent, &own);
+        self.left_out.node(node);
         self.meshes.extend(node.mesh().map(|mesh| (mesh, matrix)));
         for child in node.children() {
             self.node(&child, matrix)?;
@@ -249,10 +238,46 @@ impl<'d> Placed<'d> {
 }
 
 impl Reader<'_> {
+    /// Takes in a material; its picture.
+    fn material(
+        &mut self,
+        material: &gltf::Material<'_>,
+        files: &mut Files<'_>,
+    ) -> Result<Option<Picture>, String> {
+        let [r, g, b, a] = material.pbr_metallic_roughness().base_color_factor();
+        let mode = material.alpha_mode();
+        self.model.materials.push(Material {
+            name: material.name().unwrap_or("").to_owned(),
+            kd: [r, g, b].map(level),
+            d: match mode {
+                AlphaMode::Blend => f64::from(a),
+                _ => 1.0,
+            },
+            ..Material::default()
+        });
+        let Some(info) = material.pbr_metallic_roughness().base_color_texture() else {
+            return Ok(None);
+        };
+        let number = info.texture().source().index();
+        let named = |reason: &str| format!("picture {number}: {reason}");
+        let (picture, is_cut, told) =
+            picture_of(&info.texture(), self.buffers, files).map_err(|e| named(&e))?;
+        self.model.warnings.extend(told.map(|told| ModelError {
+            file: files.read[0].clone(),
+            line: None,
+            reason: named(told),
+        }));
+        // Of an opaque material they mean nothing.
+        if is_cut && mode != AlphaMode::Opaque {
+            self.left_out.pictures.extend(material.index());
+        }
+        Ok(Some(picture))
+    }
+
     fn mesh(&mut self, mesh: &gltf::Mesh<'_>, matrix: &Matrix) -> Result<(), String> {
         for primitive in mesh.primitives() {
             let (of, number) = (mesh.index(), primitive.index());
-            self.primitive(&primitive, matrix)
+            self.primitive(&primitive, of, matrix)
                 .map_err(|reason| format!("mesh {of}, primitive {number}: {reason}"))?;
         }
         Ok(())
@@ -261,6 +286,7 @@ impl Reader<'_> {
     fn primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,
+        mesh: usize,
         matrix: &Matrix,
     ) -> Result<(), String> {
         let buffers = self.buffers;
@@ -319,8 +345,12 @@ impl Reader<'_> {
         };
         let material = primitive.material();
         let kd = material.pbr_metallic_roughness().base_color_factor();
-        let colours: Option<Vec<[f32; 3]>> =
-            reader.read_colors(0).map(|c| c.into_rgb_f32().collect());
+        let colours: Option<Vec<[f32; 4]>> =
+            reader.read_colors(0).map(|c| c.into_rgba_f32().collect());
+        let is_clear = colours.iter().flatten().any(|c| c[3] < 1.0);
+        if is_clear && material.alpha_mode() != AlphaMode::Opaque {
+            self.left_out.colours.insert(mesh);
+        }
         if colours.iter().flatten().flatten().any(|c| !c.is_finite()) {
             return Err("a colour is not finite".into());
         }
@@ -334,7 +364,7 @@ impl Reader<'_> {
         let base = self.model.vertices.len() as u32;
         for (i, position) in positions.into_iter().enumerate() {
             let own = colours.as_ref().and_then(|c| c.get(i)).copied();
-            let own = own.unwrap_or([1.0; 3]);
+            let own = own.unwrap_or([1.0; 4]);
             let normal = normals.get(i).copied().unwrap_or([0.0; 3]);
             if normal.iter().any(|c| !c.is_finite()) {
                 return Err("a normal is not finite".into());

@@ -302,9 +302,17 @@ pub fn read_cutout(path: &Path) -> Result<Cutout, ImageError> {
 /// # Errors
 /// When it is neither, or malformed.
 pub fn decode_image(bytes: &[u8]) -> Result<Frame, String> {
+    Ok(decode_cutout(bytes)?.frame)
+}
+
+/// The same, with the transparency of a PNG.
+///
+/// # Errors
+/// As [`decode_image`].
+pub fn decode_cutout(bytes: &[u8]) -> Result<Cutout, String> {
     match bytes {
-        [0xFF, 0xD8, ..] => decode_jpeg(bytes),
-        _ => Ok(decode_png(bytes)?.frame),
+        [0xFF, 0xD8, ..] => decode_jpeg(bytes).map(Cutout::from),
+        _ => decode_png(bytes),
     }
 }
 
