@@ -4,6 +4,7 @@ use crate::args::{PictureArgs, PixelFormatArg, ShadeArg};
 use crate::image_out::ImageFormat;
 use clap::{Args, ValueEnum};
 use host_support::apart::apart;
+use scanbeam::scene::LARGEST;
 use std::path::{Path, PathBuf};
 
 /// Flags of `bake`.
@@ -81,6 +82,7 @@ const DRAWING: [&str; 15] = [
 
 /// Flags of `run-list`.
 #[derive(Debug, Clone, PartialEq, Args)]
+#[command(mut_arg("size", |size| size.help("Size of the picture in pixels, 1x1 to 1016x1016: one scene")))]
 pub struct RunListArgs {
     /// List to execute
     #[arg(value_name = "FILE")]
@@ -138,6 +140,11 @@ impl RunListArgs {
     pub(crate) fn check(&self) -> Result<(), String> {
         let view = self.picture.view();
         view.check().map_err(|error| error.to_string())?;
+        if view.width.max(view.height) > u32::from(LARGEST) {
+            return Err(format!(
+                "run-list has no --size above {LARGEST}x{LARGEST}: lists are drawn as one scene"
+            ));
+        }
         if self.picture.shade == ShadeArg::Phong {
             return Err("run-list has no --shade phong: lists are lit at corners".into());
         }

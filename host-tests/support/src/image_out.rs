@@ -285,7 +285,10 @@ pub fn read_cutout(path: &Path) -> Result<Cutout, ImageError> {
     let jpeg = extension.is_some_and(|text| text == "jpg" || text == "jpeg");
     let format = match jpeg {
         true => None,
-        false => Some(ImageFormat::from_path(path)?),
+        false => Some(ImageFormat::from_path(path).map_err(|_| {
+            let reason = "unknown picture extension, .png, .jpg or .ppm is needed";
+            ImageError::new(path, reason)
+        })?),
     };
     let bytes =
         std::fs::read(path).map_err(|error| ImageError::new(path, cannot("read", &error)))?;

@@ -58,6 +58,8 @@ pub struct Material {
     pub d: f64,
     /// Picture that multiplies the diffuse colour, its path already joined to the folder of the MTL file.
     pub map_kd: Option<PathBuf>,
+    /// The material file that names the picture, and its line there, from 1.
+    pub map_kd_at: Option<(PathBuf, usize)>,
 }
 
 impl Default for Material {
@@ -70,6 +72,7 @@ impl Default for Material {
             ns: 0.0,
             d: 1.0,
             map_kd: None,
+            map_kd_at: None,
         }
     }
 }
