@@ -51,18 +51,7 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         std::fs::read(path).map_err(|e| wrong(format!("cannot be read: {}", stdio::reason(&e))))?;
     let gltf = check::document(&bytes).map_err(wrong)?;
     let mut files = Files::new(path);
-    let mut buffers = Vec::new();
-    for buffer in gltf.buffers() {
-        let data = match buffer.source() {
-            Source::Bin => gltf.blob.clone().ok_or("the binary part is missing".into()),
-            Source::Uri(uri) => files.bytes(uri),
-        }
-        .map_err(|e: String| wrong(format!("buffer {}: {e}", buffer.index())))?;
-        if data.len() < buffer.length() {
-            return Err(wrong(format!("buffer {} is too short", buffer.index())));
-        }
-        buffers.push(data);
-    }
+    let buffers = buffers_of(&gltf, &mut files).map_err(wrong)?;
     let mut reader = Reader {
         buffers: &buffers,
         model: Model::default(),
@@ -103,6 +92,24 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         model: reader.model,
         pictures,
     })
+}
+
+/// All buffers of a file.
+fn buffers_of(gltf: &gltf::Gltf, files: &mut Files<'_>) -> Result<Vec<Vec<u8>>, String> {
+    let mut buffers = Vec::new();
+    for buffer in gltf.buffers() {
+        let number = buffer.index();
+        let data = match buffer.source() {
+            Source::Bin => gltf.blob.clone().ok_or("the binary part is missing".into()),
+            Source::Uri(uri) => files.bytes(uri),
+        };
+        let data = data.map_err(|e: String| format!("buffer {number}: {e}"))?;
+        if data.len() < buffer.length() {
+            return Err(format!("buffer {number} is too short"));
+        }
+        buffers.push(data);
+    }
+    Ok(buffers)
 }
 
 /// The picture of a texture, whether something in it is transparent, and what is left out of it.

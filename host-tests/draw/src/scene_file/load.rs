@@ -90,10 +90,10 @@ impl Loaded {
                 ("texture", item.texture.as_ref()),
             ];
             let is_nameless = |name: &PathBuf| name.as_os_str().is_empty();
-            for (field, _) in names
+            let mut nameless = names
                 .iter()
-                .filter(|(_, name)| name.is_some_and(is_nameless))
-            {
+                .filter(|(_, name)| name.is_some_and(is_nameless));
+            if let Some((field, _)) = nameless.next() {
                 return Err(named(format!("`{field}` needs a name")));
             }
             let part = Part::load(item, folder, scene.has_palettes())?;
