@@ -295,7 +295,11 @@ fn pictures_of_gltf_are_found_wherever_they_are() {
         [[0.25, 0.875], [2.0, 1.0], [-1.0, 0.5]]
     );
     let data = format!(r#"{{"uri":"data:image/png;base64,{}"}}"#, base64(&png));
-    assert_eq!(load(&data, "{}").unwrap(), beside);
+    let mut within = load(&data, "{}").unwrap();
+    assert_eq!(within.model.sources, [at("m.gltf")]);
+    assert_eq!(beside.model.sources, [at("m.gltf"), at("p.png")]);
+    within.model.sources.clone_from(&beside.model.sources);
+    assert_eq!(within, beside);
     // A baked one, read as the core reads it, has them again.
     let done = bake_textured(&beside.model, &beside.pictures, &BakeSettings::default()).unwrap();
     assert_eq!((done.triangles, done.textures.len()), (1, 1));
