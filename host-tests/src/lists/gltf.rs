@@ -402,7 +402,7 @@ fn placed(m: &Matrix, p: [f32; 3]) -> [f64; 3] {
 
 fn triangles_of(mode: Mode, i: &[u32]) -> Result<Vec<[u32; 3]>, String> {
     let three = |w: &[u32]| [w[0], w[1], w[2]];
-    if i.len() < 3 || mode == Mode::Triangles && i.len() % 3 != 0 {
+    if i.len() < 3 || mode == Mode::Triangles && !i.len().is_multiple_of(3) {
         return Err(format!("{} corners are no whole triangles", i.len()));
     }
     Ok(match mode {
