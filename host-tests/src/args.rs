@@ -20,6 +20,7 @@ use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use host_support::apart::apart;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -193,10 +194,7 @@ pub struct CompressArgs {
 
 impl CompressArgs {
     fn check(&self) -> Result<(), String> {
-        match self.output == self.picture {
-            true => Err("-o must not be the picture itself".into()),
-            false => Ok(()),
-        }
+        apart(&[("-o", &self.output)], [self.picture.as_path()])
     }
 }
 

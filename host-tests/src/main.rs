@@ -13,6 +13,7 @@ use host_tests::{
 };
 use scanbeam::frame::Paid;
 use std::error::Error;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -141,17 +142,18 @@ fn skins<'s>(args: &RenderArgs, set: &'s TextureSet) -> draw::Skins<'s> {
 /// Writes a picture and, where they are asked for, its figures: both files, or none.
 fn write(args: &RenderArgs, drawn: &Drawn) -> Result<(), Box<dyn Error>> {
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
-    if let Some(path) = &args.stats {
-        let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
-        text.push('\n');
-        Staged::new(path, text.as_bytes())?.commit()?;
-    }
-    Ok(picture.commit()?)
+    let Some(path) = &args.stats else {
+        return Ok(picture.commit()?);
+    };
+    let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
+    text.push('\n');
+    Ok(Staged::new(path, text.as_bytes())?.commit_with(picture)?)
 }
 
 /// Draws a scene file to a picture.
 fn render_scene(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let loaded = Loaded::load(&args.model)?;
+    args.check_apart(loaded.files.iter().map(PathBuf::as_path))?;
     let file = args.model.display();
     let (view, format) = (loaded.scene.view(), loaded.scene.pixel_format());
     let drawn = draw::SceneParts::new(&loaded).and_then(|parts| {
@@ -173,10 +175,13 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         return render_scene(args);
     }
     let model = Model::load(&args.model)?;
+    args.check_apart(model.files())?;
     let textures = match args.method() {
         // The hardware model has none.
         Method::Interp(InterpArg::Model) => TextureSet::default(),
-        _ => TextureSet::load(&model, args.texture.as_deref())?.with_levels(args.levels.is_on()),
+        _ => TextureSet::load(&model, args.texture.as_deref())
+            .map_err(|error| error.named(&args.model))?
+            .with_levels(args.levels.is_on()),
     };
     if args.pace.is_some() && args.levels.is_on() && !textures.is_empty() {
         let model = args.model.display();

@@ -295,7 +295,11 @@ fn pictures_of_gltf_are_found_wherever_they_are() {
         [[0.25, 0.875], [2.0, 1.0], [-1.0, 0.5]]
     );
     let data = format!(r#"{{"uri":"data:image/png;base64,{}"}}"#, base64(&png));
-    assert_eq!(load(&data, "{}").unwrap(), beside);
+    let mut within = load(&data, "{}").unwrap();
+    assert_eq!(within.model.sources, [at("m.gltf")]);
+    assert_eq!(beside.model.sources, [at("m.gltf"), at("p.png")]);
+    within.model.sources.clone_from(&beside.model.sources);
+    assert_eq!(within, beside);
     // A baked one, read as the core reads it, has them again.
     let done = bake_textured(&beside.model, &beside.pictures, &BakeSettings::default()).unwrap();
     assert_eq!((done.triangles, done.textures.len()), (1, 1));
@@ -321,10 +325,18 @@ fn pictures_of_gltf_are_found_wherever_they_are() {
         .unwrap();
     std::fs::write(at("p.jpg"), &bytes).unwrap();
     assert_eq!(read_image(&at("p.jpg")).unwrap().width(), 16);
-    for cut in [3, 100, bytes.len() / 2] {
-        std::fs::write(at("p.jpg"), &bytes[..cut]).unwrap();
-        // A picture of which the end is missing may be read; it never panics.
-        let _ = read_image(&at("p.jpg"));
+    // What is behind the end is passed over.
+    std::fs::write(at("p.jpg"), [&bytes[..], b"more"].concat()).unwrap();
+    assert_eq!(read_image(&at("p.jpg")).unwrap().width(), 16);
+    // Kills: a part of a picture taken for all of it; an end marker within a segment taken for the picture's.
+    let comment = [0xFF, 0xD8, 0xFF, 0xFE, 0, 4, 0xFF, 0xD9];
+    let commented = [&comment[..], &bytes[2..]].concat();
+    std::fs::write(at("p.jpg"), &commented).unwrap();
+    assert_eq!(read_image(&at("p.jpg")).unwrap().width(), 16);
+    for cut in 0..commented.len() {
+        std::fs::write(at("p.jpg"), &commented[..cut]).unwrap();
+        let error = read_image(&at("p.jpg")).unwrap_err().to_string();
+        assert!(error.contains("is not a good JPEG"), "{cut}: {error}");
     }
     for bad in [
         r#"{"uri":"../p.png"}"#,

@@ -32,6 +32,7 @@ mod formats;
 mod frame_events;
 mod frames;
 mod fuzz;
+mod gltf_files;
 mod golden;
 mod hot_path_alpha;
 mod hot_path_colours;
@@ -121,3 +122,4 @@ mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;
 mod watertight;
+mod written;

@@ -109,7 +109,7 @@ fn textures_that_cannot_be_read_are_refused() {
     fs::create_dir(desk.path("folder.png")).unwrap();
     desk.refused(&format!("{DRAW} --texture folder.png"), "folder.png");
     // The texture itself is not written over, and flags that do not go together are named.
-    desk.refused("render m.obj -o t.png --texture t.png", "texture");
+    desk.refused("render m.obj -o t.png --texture t.png", "t.png, which");
     desk.refused(
         &format!("{DRAW} --texture t.png --interp model"),
         "--texture",
@@ -122,7 +122,10 @@ fn textures_that_cannot_be_read_are_refused() {
     desk.refused(&format!("{DRAW} --texture"), "--texture");
     desk.write("bare.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     let bare = DRAW.replace("m.obj", "bare.obj");
-    desk.refused(&format!("{bare} --texture t.png"), "vt");
+    desk.refused(
+        &format!("{bare} --texture t.png"),
+        "bare.obj: the model has no texture places (vt)",
+    );
 }
 
 #[test]
@@ -148,6 +151,34 @@ fn materials_whose_pictures_cannot_be_read_are_refused() {
     let whole = desk.drawn(&format!("{DRAW} --texture t.png")).0;
     assert_eq!(frame, whole);
     assert_ne!(frame.pixel(8, 8), frame.pixel(56, 8));
+    with("t.png\nnewmtl b\nmap_Kd t.png");
+    desk.write(
+        "m.obj",
+        "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
+    );
+    let placeless = "m.obj: the model has no texture places (vt)";
+    desk.refused("bake m.obj -o m.list", placeless);
+    desk.refused("bake m.obj -o m.list --texture t.png", placeless);
+    desk.refused(DRAW, placeless);
+    desk.refused("view m.obj --frames 1", placeless);
+}
+
+/// Kills: numbers of textures that begin anew after the last of 16 bits.
+#[test]
+fn more_pictures_than_there_are_numbers_are_refused() {
+    let desk = Desk::new();
+    let material = |n: usize| format!("newmtl m{n}\nmap_Kd t.png\n");
+    desk.write("m.mtl", (0..65_536).map(material).collect::<String>());
+    desk.write(
+        "m.obj",
+        format!("mtllib m.mtl\n{SQUARE}usemtl m65535\n{FACE}"),
+    );
+    desk.refused(
+        DRAW,
+        "m.obj: 65536 materials have pictures (map_Kd), of at most 65535",
+    );
+    // One picture for all is one texture.
+    desk.drawn(&format!("{DRAW} --texture t.png"));
 }
 
 #[test]

@@ -336,6 +336,9 @@ fn missing_files_are_told_in_the_same_words() {
         "render m.obj -o none/o.png",
         "render m.obj -o o.png --texture none.png",
         "render m.obj -o o.png --stats none/s.json",
+        "render none.json -o o.png",
+        "plan none.json",
+        "view none.json --frames 1",
     ] {
         let text = desk.refused(line);
         assert!(
@@ -344,6 +347,77 @@ fn missing_files_are_told_in_the_same_words() {
         );
         assert!(!text.contains("os error"), "{line}: {text}");
     }
+}
+
+/// Kills: a picture of a material, a list or a scene that is refused without the file and the place that name it.
+#[test]
+fn what_is_wrong_is_named_with_its_place() {
+    let desk =
+        Desk::new("mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nf 1/1 2/1 3/1\n");
+    fs::write(desk.path("m.mtl"), "newmtl a\nKd 1 1 1\nmap_Kd p.gif\n").unwrap();
+    let picture =
+        "error: m.mtl:3: texture p.gif: unknown picture extension, .png, .jpg or .ppm is needed\n";
+    for line in [
+        "render m.obj -o o.png",
+        "bake m.obj -o m.list",
+        "view m.obj --frames 1",
+    ] {
+        assert_eq!(desk.refused(line), picture);
+    }
+    // What is written has two forms alone.
+    let written = desk.refused("render m.obj -o o.gif");
+    assert!(written.ends_with(".png or .ppm is needed\n"), "{written}");
+    // A list of version 2.
+    fs::write(desk.path("m.list"), 0x0200_0000_u32.to_ne_bytes()).unwrap();
+    let version = "error: m.list: list: offset 0x0: version 2 is unknown\n";
+    for line in [
+        "disassemble m.list",
+        "run-list m.list --print",
+        "run-list m.list -o o.png",
+    ] {
+        assert_eq!(desk.refused(line), version);
+    }
+    let size = desk.refused("run-list m.list -o o.png --size 9x1017");
+    assert!(size.contains("no --size above 1016x1016"), "{size}");
+    let help = |command: &str| String::from_utf8(desk.run(command).stdout).unwrap();
+    assert!(help("run-list --help").contains("1x1 to 1016x1016"));
+    assert!(help("render --help").contains("1x1 to 8192x8192"));
+    for (object, field) in [
+        (r#"{"model": ""}"#, "model"),
+        (r#"{"model": "m.obj", "texture": ""}"#, "texture"),
+    ] {
+        let camera = r#"{"eye": [0, 0, 3], "at": [0, 0, 0]}"#;
+        let scene = format!(r#"{{"size": [8, 8], "camera": {camera}, "objects": [{object}]}}"#);
+        fs::write(desk.path("s.json"), scene).unwrap();
+        let want = format!("error: s.json: object 0: `{field}` needs a name\n");
+        assert_eq!(desk.refused("render s.json -o o.png"), want);
+    }
+}
+
+/// Words of lists: one reaches for the master's state, one is of a later version; jumps lead before the list and into it.
+/// Kills: a plan that is silent where a player is not; offsets before the list as if they were far behind it.
+#[test]
+fn plans_tell_of_lists_what_players_tell() {
+    let desk = Desk::new(TRIANGLE);
+    let list = |words: &[u32]| {
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
+        fs::write(desk.path("m.list"), bytes).unwrap();
+    };
+    const END: u32 = 1 << 24;
+    for (block, event) in [(15 << 28, "AccessViolation"), (8 << 28, "Unimplemented")] {
+        list(&[END, END]);
+        assert_eq!(said(&desk, "plan m.list"), "");
+        list(&[block | 1 << 24, END]);
+        let want = format!("warning: m.list: {event}, first at offset 0x0, 1 times\n");
+        assert_eq!(said(&desk, "run-list m.list -o o.png"), want);
+        assert_eq!(said(&desk, "plan m.list"), want);
+    }
+    let jump = 1 << 24 | 4 << 16;
+    list(&[jump, 0, jump, -9_i32 as u32]);
+    let output = desk.run("disassemble m.list");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("jump by 0 words to 00000008\n"), "{text}");
+    assert!(text.contains("jump by -9 words to -00000014\n"), "{text}");
 }
 
 #[test]

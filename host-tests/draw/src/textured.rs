@@ -21,6 +21,9 @@ pub enum FilterArg {
     Bilinear,
 }
 
+/// Most textures of a model: its triangles have numbers of 16 bits.
+const MAX_TEXTURES: usize = 65_535;
+
 /// Why a model cannot be textured.
 #[derive(Debug, thiserror::Error)]
 pub enum TextureSetError {
@@ -30,6 +33,20 @@ pub enum TextureSetError {
     /// There is nothing to place a texture by.
     #[error("the model has no texture places (vt), which a texture needs")]
     NoPlaces,
+    /// More materials have pictures than there are numbers of textures.
+    #[error("{0} materials have pictures (map_Kd), of at most {MAX_TEXTURES}")]
+    TooMany(usize),
+}
+
+impl TextureSetError {
+    /// The error as one line that names a file: the model, where it is not about a picture.
+    #[must_use]
+    pub fn named(&self, model: &Path) -> String {
+        match self {
+            Self::File(error) => error.to_string(),
+            Self::NoPlaces | Self::TooMany(_) => format!("{}: {self}", model.display()),
+        }
+    }
 }
 
 /// The textures of a model, and which of them its triangles have.
@@ -46,7 +63,7 @@ impl TextureSet {
     /// One picture for the whole model, or, without, what its materials name.
     ///
     /// # Errors
-    /// A picture that cannot be read; a model without texture places.
+    /// A picture that cannot be read; too many of them; a model without texture places.
     pub fn load(model: &Model, file: Option<&Path>) -> Result<Self, TextureSetError> {
         Self::load_any(model, file)?.placed(model)
     }
@@ -56,6 +73,11 @@ impl TextureSet {
         Ok(match file {
             Some(file) => Self::whole(model, TextureImage::load(file)?),
             None => {
+                let pictures = model.materials.iter().filter(|m| m.map_kd.is_some());
+                let pictures = pictures.count();
+                if pictures > MAX_TEXTURES {
+                    return Err(TextureSetError::TooMany(pictures));
+                }
                 let mut set = Self::default();
                 let numbers: Vec<Option<u16>> = of_materials(model)?
                     .into_iter()
@@ -73,10 +95,9 @@ impl TextureSet {
 
     /// The set, unless its model has no texture places.
     pub(crate) fn placed(self, model: &Model) -> Result<Self, TextureSetError> {
-        let placeless = model.vertices.iter().all(|v| v.uv == [0.0; 2]);
-        match placeless && !model.vertices.is_empty() && !self.is_empty() {
-            true => Err(TextureSetError::NoPlaces),
-            false => Ok(self),
+        match self.is_empty() || model.has_places() {
+            true => Ok(self),
+            false => Err(TextureSetError::NoPlaces),
         }
     }
 

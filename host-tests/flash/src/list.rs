@@ -112,11 +112,26 @@ impl<'t> List<'t> {
         camera: &Camera,
         scene: &mut Scene<'_, 't, L>,
     ) -> Result<RunCounts, PlayError> {
+        self.play_heard(player, begin, camera, scene, |_| {})
+    }
+
+    /// The same; `hear` takes what the player tells.
+    ///
+    /// # Errors
+    /// As [`play`](Self::play).
+    pub fn play_heard<L: Look>(
+        &self,
+        player: &mut Player<'_, 't, L>,
+        begin: ListCommand,
+        camera: &Camera,
+        scene: &mut Scene<'_, 't, L>,
+        mut hear: impl FnMut(Notice),
+    ) -> Result<RunCounts, PlayError> {
         scene.begin(camera).map_err(PlayError::Begin)?;
         player.command(begin);
         let mut budget = Budget::of(self.room.budget);
         loop {
-            let ran = player.run(self.words, scene, &mut budget, &mut |_: Notice| {});
+            let ran = player.run(self.words, scene, &mut budget, &mut hear);
             match ran.map_err(PlayError::List)? {
                 Halt::Sync => {}
                 Halt::Paused => player.command(ListCommand::Resume),

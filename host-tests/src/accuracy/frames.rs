@@ -45,6 +45,7 @@ pub(super) fn model_of(mesh: &Mesh<'_>) -> Model {
         triangle_materials: vec![None; faces.len()],
         materials: Vec::new(),
         warnings: Vec::new(),
+        sources: Vec::new(),
     }
 }
 

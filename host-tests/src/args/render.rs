@@ -7,9 +7,10 @@ use crate::draw::{CrewSettings, Effects, FilterArg};
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
+use host_support::apart::apart;
 use scanbeam::scene::Budget;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// How far texture places may be off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -259,20 +260,20 @@ impl RenderArgs {
         }
         self.view().check().map_err(|error| error.to_string())?;
         ImageFormat::from_path(&self.output).map_err(|error| error.to_string())?;
-        if self.texture.as_ref() == Some(&self.output) {
-            return Err("-o must not be the texture itself".into());
-        }
-        if self.output == self.model {
-            return Err("-o must not be the model itself".into());
-        }
-        if self
-            .stats
-            .as_ref()
-            .is_some_and(|stats| *stats == self.output || *stats == self.model)
-        {
-            return Err("--stats must be a file of its own".into());
-        }
-        Ok(())
+        self.check_apart([self.model.as_path()])
+    }
+
+    /// Whether what is written is none of the files that are read: those, and the flags' picture.
+    ///
+    /// # Errors
+    /// One line, which names the flag.
+    pub fn check_apart<'p>(
+        &'p self,
+        read: impl IntoIterator<Item = &'p Path>,
+    ) -> Result<(), String> {
+        let mut outputs = vec![("-o", self.output.as_path())];
+        outputs.extend(self.stats.iter().map(|stats| ("--stats", stats.as_path())));
+        apart(&outputs, read.into_iter().chain(self.texture.as_deref()))
     }
 }
 

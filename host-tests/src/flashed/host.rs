@@ -5,6 +5,7 @@ use super::memory::{DRAW_BYTES, VOLUME_BYTES, list_bytes, slow_bytes};
 use super::tally::{Built, Listed, Meshes, PassOne, Tally, WORDS};
 use super::too_large;
 use crate::draw::twice;
+use crate::lists::heard::{self, Heard};
 use crate::rooms::{self, LineRooms, SceneRooms};
 use scanbeam::input::{LightRoom, Player, PlayerMemory, RunCounts, TextureRoom};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
@@ -42,6 +43,8 @@ pub struct Shown {
     pub calls: u32,
     /// What its player did, where it is a list.
     pub listed: Option<Listed>,
+    /// What its player told that is unusual.
+    pub heard: Heard,
     /// Triangles that were submitted; those that were filed are in the head's room.
     pub triangles: u32,
     /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
@@ -399,14 +402,18 @@ fn played<L: Look<Pixel = Rgb565Be>>(
     let mut player = Player::<L>::new(memory, list.settings());
     let blocks = Blocks::of(list.words);
     let background = Rgb565Be::from_rgb8(head.background);
+    let mut told = Heard::new();
     let done = drawn::<L>(head, lend, (background, false), |scene, camera| {
-        let played = list.play(&mut player, ListCommand::Start(0), camera, scene);
+        let hear = |notice| heard::hear(&mut told, notice);
+        let played = list.play_heard(&mut player, ListCommand::Start(0), camera, scene, hear);
         Ok(built(played.map_err(Refused::from)?, &blocks))
     });
     let (shown, pixels) = done?;
     let slow_bytes = shown.slow_bytes + list_bytes(&list.room);
+    heard::keep_unusual(&mut told);
     Ok(Shown {
         pixels,
+        heard: told,
         slow_bytes,
         ..shown
     })
@@ -480,6 +487,7 @@ fn drawn<'t, L: Look>(
         pixels: Vec::new(),
         calls: draws,
         listed: built.listed,
+        heard: Heard::new(),
         triangles: scene.assembled().triangles,
         slow_bytes: slow_bytes(&Head { room, ..head }, DRAW_BYTES),
     };

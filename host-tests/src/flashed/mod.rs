@@ -58,6 +58,7 @@ pub fn run(file: &Path, args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
     let toolchain = Toolchain::find()?;
     let boards = flashed.measure(&toolchain, &args.boards(), file)?;
     report::print(file, &flashed, &toolchain, &boards, args.json)?;
+    crate::lists::heard::tell_all(file.display(), &flashed.shown.heard);
     for note in &flashed.notes {
         tell!("note: {note}");
     }

@@ -3,7 +3,9 @@
 use crate::args::{PictureArgs, PixelFormatArg, ShadeArg};
 use crate::image_out::ImageFormat;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use host_support::apart::apart;
+use scanbeam::scene::LARGEST;
+use std::path::{Path, PathBuf};
 
 /// Flags of `bake`.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -80,6 +82,7 @@ const DRAWING: [&str; 15] = [
 
 /// Flags of `run-list`.
 #[derive(Debug, Clone, PartialEq, Args)]
+#[command(mut_arg("size", |size| size.help("Size of the picture in pixels, 1x1 to 1016x1016: one scene")))]
 pub struct RunListArgs {
     /// List to execute
     #[arg(value_name = "FILE")]
@@ -119,10 +122,16 @@ impl BakeArgs {
         if !extension.is_some_and(|e| known.iter().any(|k| e == *k)) {
             return Err("the model must be .obj, .gltf or .glb".into());
         }
-        if self.output == self.model {
-            return Err("-o must not be the model itself".into());
-        }
-        Ok(())
+        self.check_apart([self.model.as_path()])
+    }
+
+    /// Whether the list is none of the files that are read: those, and the flags' picture.
+    pub(crate) fn check_apart<'p>(
+        &'p self,
+        read: impl IntoIterator<Item = &'p Path>,
+    ) -> Result<(), String> {
+        let read = read.into_iter().chain(self.texture.as_deref());
+        apart(&[("-o", &self.output)], read)
     }
 }
 
@@ -131,6 +140,11 @@ impl RunListArgs {
     pub(crate) fn check(&self) -> Result<(), String> {
         let view = self.picture.view();
         view.check().map_err(|error| error.to_string())?;
+        if view.width.max(view.height) > u32::from(LARGEST) {
+            return Err(format!(
+                "run-list has no --size above {LARGEST}x{LARGEST}: lists are drawn as one scene"
+            ));
+        }
         if self.picture.shade == ShadeArg::Phong {
             return Err("run-list has no --shade phong: lists are lit at corners".into());
         }
@@ -141,10 +155,7 @@ impl RunListArgs {
             return Ok(());
         };
         ImageFormat::from_path(output).map_err(|error| error.to_string())?;
-        if *output == self.list {
-            return Err("-o must not be the list itself".into());
-        }
-        Ok(())
+        apart(&[("-o", output)], [self.list.as_path()])
     }
 }
 

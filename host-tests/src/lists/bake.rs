@@ -14,9 +14,10 @@ use super::fields::{Grid, Packed, degrees_between, normal_fields};
 use super::gltf::{self, Loaded};
 use super::sizes;
 use super::texels::{Picture, Texels};
-use crate::image_out::{read_image, write_atomically};
+use crate::draw::TextureSetError;
+use crate::image_out::{read_cutout, write_atomically};
 use crate::lists::writer::ListWriter;
-use crate::model::Model;
+use crate::model::{Model, ModelError};
 use crate::texture_file;
 use plan::Plan;
 use scanbeam::list::FieldForm;
@@ -129,9 +130,21 @@ fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
     } else {
         gltf::load(&args.model)?
     };
+    args.check_apart(loaded.model.files())?;
+    let is_pictured = obj && loaded.pictures.iter().any(Option::is_some);
+    if (is_pictured || args.texture.is_some()) && !loaded.model.has_places() {
+        return Err(TextureSetError::NoPlaces.named(&args.model).into());
+    }
+    let mut cut = loaded
+        .pictures
+        .iter()
+        .flatten()
+        .filter(|p| p.image.alpha.is_some())
+        .count();
     if let Some(file) = &args.texture {
         // The last material, which no triangle has had, is for those without.
-        let one = Picture::new(&read_image(file)?)?;
+        let read = read_cutout(file)?;
+        let one = Picture::new(&read.frame)?;
         let model = &mut loaded.model;
         model.materials.push(crate::model::Material::default());
         let last = model.materials.len() as u32 - 1;
@@ -139,8 +152,16 @@ fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
             material.get_or_insert(last);
         }
         loaded.pictures = vec![Some(one); model.materials.len()];
+        cut = usize::from(read.alpha.is_some());
     } else if args.textures == Pictures::Drop {
         loaded.pictures.clear();
+    }
+    if cut > 0 {
+        loaded.model.warnings.push(ModelError {
+            file: args.model.clone(),
+            line: None,
+            reason: format!("alphas of materials' pictures are left out: {cut}"),
+        });
     }
     // A picture on several materials is told once.
     let mut told = BTreeSet::new();

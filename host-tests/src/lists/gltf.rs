@@ -5,22 +5,28 @@
 //! Pictures are PNG or JPEG. Their texture places are those of the set that the material names.
 
 mod check;
+mod files;
+mod left_out;
 
 use super::texels::Picture;
-use crate::image_out::decode_image;
+use crate::image_out::decode_cutout;
 use crate::model::{Material, Model, ModelError, ModelVertex};
 use crate::stdio;
-use base64::Engine as _;
+use files::Files;
 use gltf::buffer::Source;
+use gltf::material::AlphaMode;
 use gltf::mesh::Mode;
 use gltf::texture::WrappingMode;
+use left_out::LeftOut;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Largest buffer that is read, in bytes.
-const MAX_BUFFER: u64 = 1 << 30;
 /// Most nodes that are placed, each as often as it stands in the tree.
 const MAX_NODES: usize = 1 << 16;
+/// Most vertices of all meshes, each as often as it is placed.
+const MAX_VERTICES: usize = 1 << 23;
+/// Most corners of triangles, strips and fans, likewise.
+const MAX_CORNERS: usize = 3 << 23;
 
 /// A model, and for each of its materials the picture on it.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,54 +50,30 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
     let bytes =
         std::fs::read(path).map_err(|e| wrong(format!("cannot be read: {}", stdio::reason(&e))))?;
     let gltf = check::document(&bytes).map_err(wrong)?;
-    let mut buffers = Vec::new();
-    for buffer in gltf.buffers() {
-        let data = match buffer.source() {
-            Source::Bin => gltf.blob.clone().ok_or("the binary part is missing".into()),
-            Source::Uri(uri) => buffer_of(uri, path),
-        }
-        .map_err(|e: String| wrong(format!("buffer {}: {e}", buffer.index())))?;
-        if data.len() < buffer.length() {
-            return Err(wrong(format!("buffer {} is too short", buffer.index())));
-        }
-        buffers.push(data);
-    }
+    let mut files = Files::new(path);
+    let buffers = buffers_of(&gltf, &mut files).map_err(wrong)?;
     let mut reader = Reader {
         buffers: &buffers,
         model: Model::default(),
-        nodes: 0,
         without_area: 0,
-        above: HashSet::new(),
+        left_out: LeftOut::of_materials(&gltf, &bytes),
     };
     let mut pictures = Vec::new();
     for material in gltf.materials() {
-        let [r, g, b, a] = material.pbr_metallic_roughness().base_color_factor();
-        let info = material.pbr_metallic_roughness().base_color_texture();
-        let picture = info.map(|info| {
-            let number = info.texture().source().index();
-            let named = |reason| wrong(format!("picture {number}: {reason}"));
-            picture_of(&info.texture(), &buffers, path, &mut |reason| {
-                reader.model.warnings.push(named(reason));
-            })
-            .map_err(named)
-        });
-        pictures.push(picture.transpose()?);
-        reader.model.materials.push(Material {
-            name: material.name().unwrap_or("").to_owned(),
-            kd: [r, g, b].map(level),
-            d: match material.alpha_mode() {
-                gltf::material::AlphaMode::Blend => f64::from(a),
-                _ => 1.0,
-            },
-            ..Material::default()
-        });
+        let picture = reader.material(&material, &mut files);
+        pictures.push(picture.map_err(wrong)?);
     }
     let scenes: Vec<_> = match gltf.default_scene() {
         Some(scene) => vec![scene],
         None => gltf.scenes().take(1).collect(),
     };
+    let mut placed = Placed::default();
     for node in scenes.iter().flat_map(|scene| scene.nodes()) {
-        reader.node(&node, IDENTITY).map_err(wrong)?;
+        placed.node(&node, IDENTITY).map_err(wrong)?;
+    }
+    placed.check().map_err(wrong)?;
+    for (mesh, matrix) in &placed.meshes {
+        reader.mesh(mesh, matrix).map_err(wrong)?;
     }
     let mut warn = |reason: String| reader.model.warnings.push(wrong(reason));
     if scenes.is_empty() {
@@ -103,36 +85,55 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         let n = reader.without_area;
         warn(format!("primitives of points and lines are left out: {n}"));
     }
+    let left_out = (reader.left_out.lines()).chain(placed.left_out.lines());
+    left_out.for_each(warn);
+    reader.model.sources = files.read;
     Ok(Loaded {
         model: reader.model,
         pictures,
     })
 }
 
-/// The picture of a texture; `warn` takes what is left out.
+/// All buffers of a file.
+fn buffers_of(gltf: &gltf::Gltf, files: &mut Files<'_>) -> Result<Vec<Vec<u8>>, String> {
+    let mut buffers = Vec::new();
+    for buffer in gltf.buffers() {
+        let number = buffer.index();
+        let data = match buffer.source() {
+            Source::Bin => gltf.blob.clone().ok_or("the binary part is missing".into()),
+            Source::Uri(uri) => files.bytes(uri),
+        };
+        let data = data.map_err(|e: String| format!("buffer {number}: {e}"))?;
+        if data.len() < buffer.length() {
+            return Err(format!("buffer {number} is too short"));
+        }
+        buffers.push(data);
+    }
+    Ok(buffers)
+}
+
+/// The picture of a texture, whether something in it is transparent, and what is left out of it.
 fn picture_of(
     texture: &gltf::Texture<'_>,
     buffers: &[Vec<u8>],
-    path: &Path,
-    warn: &mut impl FnMut(String),
-) -> Result<Picture, String> {
-    let frame = match texture.source().source() {
-        gltf::image::Source::Uri { uri, .. } => decode_image(&buffer_of(uri, path)?)?,
+    files: &mut Files<'_>,
+) -> Result<(Picture, bool, Option<&'static str>), String> {
+    let read = match texture.source().source() {
+        gltf::image::Source::Uri { uri, .. } => decode_cutout(&files.bytes(uri)?)?,
         gltf::image::Source::View { view, .. } => {
             let buffer = buffers.get(view.buffer().index()).map(Vec::as_slice);
             let end = view.offset().checked_add(view.length());
             let bytes = end.and_then(|end| buffer?.get(view.offset()..end));
-            decode_image(bytes.ok_or("it is not within its buffer")?)?
+            decode_cutout(bytes.ok_or("it is not within its buffer")?)?
         }
     };
-    let mut picture = Picture::new(&frame).map_err(|e| e.to_string())?;
+    let mut picture = Picture::new(&read.frame).map_err(|e| e.to_string())?;
     let sampler = texture.sampler();
     let wraps = [sampler.wrap_s(), sampler.wrap_t()];
     picture.clamped = wraps == [WrappingMode::ClampToEdge; 2];
-    if !picture.clamped && wraps != [WrappingMode::Repeat; 2] {
-        warn("it repeats both ways, which is not what its sampler says".into());
-    }
-    Ok(picture)
+    let is_other = !picture.clamped && wraps != [WrappingMode::Repeat; 2];
+    let told = "it repeats both ways, which is not what its sampler says";
+    Ok((picture, read.alpha.is_some(), is_other.then_some(told)))
 }
 
 /// Linear light as a level of the display.
@@ -144,31 +145,6 @@ fn level(linear: f32) -> f64 {
         // Exactly 1 at 1, which the rounded constants miss by one unit in the last place.
         1.0 - 1.055 * (1.0 - v.powf(1.0 / 2.4))
     }
-}
-
-fn buffer_of(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let (_, text) = data.split_once("base64,").ok_or("data is not in base64")?;
-        return base64::engine::general_purpose::STANDARD
-            .decode(text)
-            .map_err(|e| e.to_string());
-    }
-    // A name in the folder of the file: nothing above it, and nothing elsewhere.
-    let name = Path::new(uri);
-    let plain = name
-        .components()
-        .all(|c| matches!(c, std::path::Component::Normal(_)));
-    if !plain || uri.contains(':') {
-        return Err(format!("{uri:?} is not a file in the same folder"));
-    }
-    let file = path.parent().unwrap_or(Path::new("")).join(name);
-    let size = std::fs::metadata(&file)
-        .map_err(|e| format!("{uri:?}: {}", stdio::reason(&e)))?
-        .len();
-    if size > MAX_BUFFER {
-        return Err(format!("{uri:?} is too large"));
-    }
-    std::fs::read(&file).map_err(|e| format!("{uri:?}: {}", stdio::reason(&e)))
 }
 
 /// Columns of a 4 x 4 matrix, as glTF has them.
@@ -209,26 +185,31 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 struct Reader<'b> {
     buffers: &'b [Vec<u8>],
     model: Model,
-    nodes: usize,
     /// Primitives of points and lines.
     without_area: usize,
+    left_out: LeftOut,
+}
+
+/// The meshes of a scene, each as often as it stands in the tree, and where.
+#[derive(Default)]
+struct Placed<'d> {
+    meshes: Vec<(gltf::Mesh<'d>, Matrix)>,
+    nodes: usize,
+    left_out: LeftOut,
     /// The nodes above the one at work, so that a circle is noticed.
     above: HashSet<usize>,
 }
 
-impl Reader<'_> {
-    fn node(&mut self, node: &gltf::Node<'_>, parent: Matrix) -> Result<(), String> {
+impl<'d> Placed<'d> {
+    fn node(&mut self, node: &gltf::Node<'d>, parent: Matrix) -> Result<(), String> {
         self.nodes += 1;
         if self.nodes > MAX_NODES || self.above.len() > 256 || !self.above.insert(node.index()) {
             return Err("its nodes are too many, or stand in a circle".into());
         }
         let own = node.transform().matrix().map(|c| c.map(f64::from));
         let matrix = product(&parent, &own);
-        if let Some(mesh) = node.mesh() {
-            for primitive in mesh.primitives() {
-                self.primitive(&primitive, &matrix)?;
-            }
-        }
+        self.left_out.node(node);
+        self.meshes.extend(node.mesh().map(|mesh| (mesh, matrix)));
         for child in node.children() {
             self.node(&child, matrix)?;
         }
@@ -236,9 +217,83 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// Whether all of it is no more than what is read, before any of it is.
+    fn check(&self) -> Result<(), String> {
+        let primitives = self.meshes.iter().flat_map(|(mesh, _)| mesh.primitives());
+        let sizes = primitives.map(|primitive| {
+            let vertices = primitive
+                .get(&gltf::Semantic::Positions)
+                .map_or(0, |a| a.count());
+            [
+                vertices,
+                primitive.indices().map_or(vertices, |a| a.count()),
+            ]
+        });
+        let sums = sizes.fold([0; 2], |sums: [usize; 2], size| {
+            [0, 1].map(|i| sums[i].saturating_add(size[i]))
+        });
+        match sums {
+            [vertices, corners] if vertices > MAX_VERTICES || corners > MAX_CORNERS => {
+                Err(format!(
+                    "as often as its meshes are placed they have {vertices} vertices and {corners} corners, \
+                 of at most {MAX_VERTICES} and {MAX_CORNERS}"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// Takes in a material; its picture.
+    fn material(
+        &mut self,
+        material: &gltf::Material<'_>,
+        files: &mut Files<'_>,
+    ) -> Result<Option<Picture>, String> {
+        let [r, g, b, a] = material.pbr_metallic_roughness().base_color_factor();
+        let mode = material.alpha_mode();
+        self.model.materials.push(Material {
+            name: material.name().unwrap_or("").to_owned(),
+            kd: [r, g, b].map(level),
+            d: match mode {
+                AlphaMode::Blend => f64::from(a),
+                _ => 1.0,
+            },
+            ..Material::default()
+        });
+        let Some(info) = material.pbr_metallic_roughness().base_color_texture() else {
+            return Ok(None);
+        };
+        let number = info.texture().source().index();
+        let named = |reason: &str| format!("picture {number}: {reason}");
+        let (picture, is_cut, told) =
+            picture_of(&info.texture(), self.buffers, files).map_err(|e| named(&e))?;
+        self.model.warnings.extend(told.map(|told| ModelError {
+            file: files.read[0].clone(),
+            line: None,
+            reason: named(told),
+        }));
+        // Of an opaque material they mean nothing.
+        if is_cut && mode != AlphaMode::Opaque {
+            self.left_out.pictures.extend(material.index());
+        }
+        Ok(Some(picture))
+    }
+
+    fn mesh(&mut self, mesh: &gltf::Mesh<'_>, matrix: &Matrix) -> Result<(), String> {
+        for primitive in mesh.primitives() {
+            let (of, number) = (mesh.index(), primitive.index());
+            self.primitive(&primitive, of, matrix)
+                .map_err(|reason| format!("mesh {of}, primitive {number}: {reason}"))?;
+        }
+        Ok(())
+    }
+
     fn primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,
+        mesh: usize,
         matrix: &Matrix,
     ) -> Result<(), String> {
         let buffers = self.buffers;
@@ -252,7 +307,7 @@ impl Reader<'_> {
         }
         let reader = primitive.reader(|b| buffers.get(b.index()).map(Vec::as_slice));
         let Some(positions) = reader.read_positions() else {
-            return Err("a primitive has no positions".into());
+            return Err("it has no positions".into());
         };
         let positions: Vec<[f64; 3]> = positions.map(|p| placed(matrix, p)).collect();
         if positions
@@ -297,8 +352,15 @@ impl Reader<'_> {
         };
         let material = primitive.material();
         let kd = material.pbr_metallic_roughness().base_color_factor();
-        let colours: Option<Vec<[f32; 3]>> =
-            reader.read_colors(0).map(|c| c.into_rgb_f32().collect());
+        let colours: Option<Vec<[f32; 4]>> =
+            reader.read_colors(0).map(|c| c.into_rgba_f32().collect());
+        let is_clear = colours.iter().flatten().any(|c| c[3] < 1.0);
+        if is_clear && material.alpha_mode() != AlphaMode::Opaque {
+            self.left_out.colours.insert(mesh);
+        }
+        if colours.iter().flatten().flatten().any(|c| !c.is_finite()) {
+            return Err("a colour is not finite".into());
+        }
         let info = material.pbr_metallic_roughness().base_color_texture();
         let places: Option<Vec<[f32; 2]>> = info
             .and_then(|info| reader.read_tex_coords(info.tex_coord()))
@@ -309,7 +371,7 @@ impl Reader<'_> {
         let base = self.model.vertices.len() as u32;
         for (i, position) in positions.into_iter().enumerate() {
             let own = colours.as_ref().and_then(|c| c.get(i)).copied();
-            let own = own.unwrap_or([1.0; 3]);
+            let own = own.unwrap_or([1.0; 4]);
             let normal = normals.get(i).copied().unwrap_or([0.0; 3]);
             if normal.iter().any(|c| !c.is_finite()) {
                 return Err("a normal is not finite".into());
@@ -340,6 +402,9 @@ fn placed(m: &Matrix, p: [f32; 3]) -> [f64; 3] {
 
 fn triangles_of(mode: Mode, i: &[u32]) -> Result<Vec<[u32; 3]>, String> {
     let three = |w: &[u32]| [w[0], w[1], w[2]];
+    if i.len() < 3 || mode == Mode::Triangles && !i.len().is_multiple_of(3) {
+        return Err(format!("{} corners are no whole triangles", i.len()));
+    }
     Ok(match mode {
         Mode::Triangles => i.chunks_exact(3).map(three).collect(),
         Mode::TriangleStrip => i

@@ -11,6 +11,7 @@
 //! | `tables.rs` | strips and fans into tables of vertices |
 //! | `gltf.rs` | glTF 2.0 into a model |
 //! | `parts.rs` | triangles into parts that are passed over where they are turned away |
+//! | `heard.rs` | what players tell of lists |
 //! | `print.rs` | a list as text |
 //! | `run.rs` | a list into a picture |
 //! | `writer.rs` | blocks into words |
@@ -19,6 +20,7 @@ pub mod args;
 pub mod bake;
 mod fields;
 pub mod gltf;
+pub mod heard;
 mod parts;
 pub mod print;
 pub mod run;

@@ -6,6 +6,7 @@ use crate::stdio;
 use scanbeam::list::{Field, Flow, Header, Id, Instruction, Run, State, VertexFormat, read_block};
 use std::error::Error;
 use std::fmt::Write as _;
+use std::path::Path;
 
 /// Vertices and words of a block that are printed; of the rest only how many there are.
 const SHOWN: u32 = 4;
@@ -15,18 +16,18 @@ const SHOWN: u32 = 4;
 /// # Errors
 /// When it cannot be read, or is malformed; what stands before is printed.
 pub fn run(args: &DisassembleArgs) -> Result<(), Box<dyn Error>> {
-    print(&read_list(&args.list)?)
+    print_file(&args.list, &read_list(&args.list)?)
 }
 
-/// Prints a list.
+/// Prints the list of a file.
 ///
 /// # Errors
-/// When it is malformed; what stands before is printed. A closed pipe is none.
-pub fn print(list: &[u32]) -> Result<(), Box<dyn Error>> {
+/// When it is malformed, by its name; what stands before is printed. A closed pipe is none.
+pub fn print_file(file: &Path, list: &[u32]) -> Result<(), Box<dyn Error>> {
     let (text, error) = listing(list);
     stdio::out(format_args!("{text}"));
     match error {
-        Some(error) => Err(error.into()),
+        Some(error) => Err(format!("{}: {error}", file.display()).into()),
         None => Ok(()),
     }
 }
@@ -63,7 +64,12 @@ fn block(
     let line = match instruction {
         Instruction::Flow(Flow::JumpRelative(by)) => {
             let to = (i64::from(at) + 2 + i64::from(*by)) * 4;
-            format!("FLOW  jump by {by} words to {to:08x}")
+            // A signed offset: one before the list has no other.
+            let sign = if to < 0 { "-" } else { "" };
+            format!(
+                "FLOW  jump by {by} words to {sign}{:08x}",
+                to.unsigned_abs()
+            )
         }
         Instruction::Flow(Flow::Jump(to)) => {
             format!("FLOW  jump to {:08x}", 4 * u64::from(*to))

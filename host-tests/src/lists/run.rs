@@ -1,12 +1,13 @@
 //! `run-list`: a list into a picture, as firmware would execute it.
 
 use super::args::RunListArgs;
+use super::heard::{self, Heard};
 use super::{print, read_list};
 use crate::image_out::{Frame, write_image};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::reference::{Cull, Shade, View};
 use crate::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::event::{Event, Notice};
+use scanbeam::event::Notice;
 use scanbeam::frame::draw_frame_overlaid;
 use scanbeam::input::{LightRoom, Player, PlayerMemory, PlayerSettings, RunCounts, TextureRoom};
 use scanbeam::list::{
@@ -42,7 +43,7 @@ type Look = Textured<Rgb888>;
 pub fn run(args: &RunListArgs) -> Result<(), Box<dyn Error>> {
     let list = read_list(&args.list)?;
     let Some(output) = &args.output else {
-        return print::print(&list);
+        return print::print_file(&args.list, &list);
     };
     let ran = execute(&list, &args.picture.view(), Budget::of(args.budget))
         .map_err(|error| format!("{}: {error}", args.list.display()))?;
@@ -52,9 +53,7 @@ pub fn run(args: &RunListArgs) -> Result<(), Box<dyn Error>> {
         let (halt, at) = (ran.halt, 4 * ran.position);
         tell!("warning: {file}: halted at offset {at:#x}: {halt:?}");
     }
-    for (event, offset, times) in &ran.events {
-        tell!("warning: {file}: {event:?}, first at offset {offset:#x}, {times} times");
-    }
+    heard::tell_all(file, &ran.events);
     if ran.is_textured {
         tell!("note: texels of textures are rounded to 5, 6 and 5 bits");
     }
@@ -70,8 +69,8 @@ pub struct Ran {
     pub halt: Halt,
     /// Word of the block that would come next.
     pub position: u32,
-    /// Kinds of events but for the list's end, offset of the first, how many.
-    pub events: Vec<(Event, u32, u32)>,
+    /// Kinds of events but for the list's end and cut triangles.
+    pub events: Heard,
     /// What the list did.
     pub counts: RunCounts,
     /// Whether it has textures.
@@ -131,7 +130,7 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
     player.start(0);
     let mut events = Vec::new();
     let halt = play(list, &mut player, &mut scene, budget, &mut events)?;
-    events.retain(|e| !matches!(e.0, Event::ListEnd | Event::Clipped));
+    heard::keep_unusual(&mut events);
     let painted = ListOverlays {
         words: list,
         slots: &overlays,
@@ -187,12 +186,9 @@ fn play<'t>(
     player: &mut Player<'_, 't, Look, i32>,
     scene: &mut Scene<'_, 't, Look>,
     mut budget: Budget,
-    events: &mut Vec<(Event, u32, u32)>,
+    events: &mut Heard,
 ) -> Result<Halt, Box<dyn Error>> {
-    let mut note = |n: Notice| match events.iter_mut().find(|e| e.0 == n.event) {
-        Some(known) => known.2 += 1,
-        None => events.push((n.event, n.offset, 1)),
-    };
+    let mut note = |notice: Notice| heard::hear(events, notice);
     loop {
         match player.run(list, scene, &mut budget, &mut note)? {
             Halt::Sync => {}

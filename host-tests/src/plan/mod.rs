@@ -32,6 +32,7 @@ use crate::draw::MOST_SLOTS;
 use crate::firmware::BOARDS;
 use crate::flashed::tally::Tally;
 use crate::flashed::{Flashed, memory};
+use crate::lists::heard;
 use crate::scene_file::Loaded;
 use model::{Parts, reckon, works};
 use program::Program;
@@ -128,6 +129,7 @@ pub fn run(args: &PlanArgs) -> Result<(), Box<dyn Error>> {
         &Record::read(&Record::path())?,
     )?;
     report::print(file, &plan, args.json)?;
+    heard::tell_all(file.display(), &plan.flashed.shown.heard);
     for note in &plan.flashed.notes {
         tell!("note: {note}");
     }

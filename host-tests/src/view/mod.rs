@@ -39,14 +39,15 @@ pub fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
     if let Some(file) = args.model.as_ref().filter(|file| is_scene(file)) {
         return run_scene(args, file);
     }
+    let file = args.model.as_deref().unwrap_or(Path::new("teapot.obj"));
     let model = match &args.model {
-        Some(file) => Model::load(file)?,
+        Some(_) => Model::load(file)?,
         None => {
             let text = obj_text(&scenes::TEAPOT).ok_or("a mesh of triangles")?;
-            Model::from_obj_text(&text, Path::new("teapot.obj"))?
+            Model::from_obj_text(&text, file)?
         }
     };
-    let scenery = Scenery::new(&model)?;
+    let scenery = Scenery::new(&model).map_err(|error| error.named(file))?;
     let state = State::new(args);
     show_named(args, &scenery, state)?;
     // Last: a terminal shows its own screen until then.

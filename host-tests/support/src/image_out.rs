@@ -5,9 +5,11 @@
 //! animated picture is an APNG: true colour, and viewers that know
 //! only PNG show its first frame.
 
+pub use crate::staged::{Staged, write_atomically};
+
 use crate::stdio;
 use std::fmt;
-use std::io::{Cursor, ErrorKind, Write};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
@@ -115,7 +117,7 @@ pub struct ImageError {
 }
 
 impl ImageError {
-    fn new(file: &Path, reason: impl fmt::Display) -> Self {
+    pub(crate) fn new(file: &Path, reason: impl fmt::Display) -> Self {
         Self {
             file: file.to_path_buf(),
             reason: reason.to_string(),
@@ -150,127 +152,8 @@ pub fn make_folder(folder: &Path) -> Result<(), ImageError> {
     })
 }
 
-/// Writes all bytes or, on error, leaves what was there before.
-///
-/// # Errors
-/// The folder is missing, or anything that the file system refuses.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
-    Staged::new(path, bytes)?.commit()
-}
-
-/// A file that is written in full beside its place, but not yet there: so that several files
-/// come into being together or not at all. Dropping it leaves nothing.
-pub struct Staged<'a> {
-    /// As it was named.
-    path: &'a Path,
-    way: Way,
-}
-
-/// How bytes get to their place.
-enum Way {
-    /// By a file beside its place, and that place.
-    Renamed(tempfile::NamedTempFile, PathBuf),
-    /// Into the pipe or the device that is there.
-    Written(Vec<u8>),
-}
-
-impl<'a> Staged<'a> {
-    /// Writes the bytes into the folder of `path`, or where `path` is a symbolic link, of what it
-    /// leads to: the link stays, and the file behind it is replaced.
-    ///
-    /// # Errors
-    /// The folder is missing, there is a folder or a disk in the file's place, or anything that
-    /// the file system refuses.
-    pub fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, ImageError> {
-        if takes_bytes(path) {
-            let way = Way::Written(bytes.to_vec());
-            return Ok(Self { path, way });
-        }
-        let place = behind_links(path)?;
-        let file = stage(path, &place, bytes)?;
-        match std::fs::metadata(&place) {
-            Ok(there) if there.is_dir() => Err(ImageError::new(path, "is a folder")),
-            Ok(there) if !there.is_file() => Err(ImageError::new(path, "is no ordinary file")),
-            _ => Ok(Self {
-                path,
-                way: Way::Renamed(file, place),
-            }),
-        }
-    }
-
-    /// Puts the file in its place. A reader of a pipe may go away before it has all.
-    ///
-    /// # Errors
-    /// Anything that the file system refuses.
-    pub fn commit(self) -> Result<(), ImageError> {
-        let done = match self.way {
-            Way::Renamed(file, place) => file.persist(place).map(drop).map_err(|e| e.error),
-            Way::Written(bytes) => {
-                let opened = std::fs::OpenOptions::new().write(true).open(self.path);
-                opened.and_then(|mut there| there.write_all(&bytes))
-            }
-        };
-        match done {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                Err(ImageError::new(self.path, cannot("written", &error)))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// Whether there is a pipe or a device that takes bytes one after the other.
-fn takes_bytes(path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        let there = std::fs::metadata(path).map(|there| there.file_type());
-        there.is_ok_and(|there| there.is_fifo() || there.is_char_device())
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = path;
-        false
-    }
-}
-
-/// Where a file of that name is written: behind all symbolic links, also behind one that leads to
-/// nothing yet.
-fn behind_links(path: &Path) -> Result<PathBuf, ImageError> {
-    /// As many as Linux follows.
-    const LINKS: usize = 40;
-    let mut place = path.to_path_buf();
-    for _ in 0..=LINKS {
-        let Ok(target) = std::fs::read_link(&place) else {
-            return Ok(place);
-        };
-        place = place.parent().unwrap_or(Path::new("")).join(target);
-    }
-    Err(ImageError::new(path, "its symbolic links lead in a circle"))
-}
-
-/// A temporary file with the bytes, in the folder of `place`; errors name `path`.
-fn stage(path: &Path, place: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile, ImageError> {
-    let cannot_write = |error: std::io::Error| ImageError::new(path, cannot("written", &error));
-    let folder = match place.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".scanbeam-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As an ordinary new file: the umask takes away from this.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(folder).map_err(cannot_write)?;
-    file.write_all(bytes).map_err(cannot_write)?;
-    Ok(file)
-}
-
 /// What could not be done, and why.
-fn cannot(what: &str, error: &std::io::Error) -> String {
+pub(crate) fn cannot(what: &str, error: &std::io::Error) -> String {
     format!("cannot be {what}: {}", stdio::reason(error))
 }
 
@@ -403,7 +286,10 @@ pub fn read_cutout(path: &Path) -> Result<Cutout, ImageError> {
     let jpeg = extension.is_some_and(|text| text == "jpg" || text == "jpeg");
     let format = match jpeg {
         true => None,
-        false => Some(ImageFormat::from_path(path)?),
+        false => Some(ImageFormat::from_path(path).map_err(|_| {
+            let reason = "unknown picture extension, .png, .jpg or .ppm is needed";
+            ImageError::new(path, reason)
+        })?),
     };
     let bytes =
         std::fs::read(path).map_err(|error| ImageError::new(path, cannot("read", &error)))?;
@@ -420,16 +306,47 @@ pub fn read_cutout(path: &Path) -> Result<Cutout, ImageError> {
 /// # Errors
 /// When it is neither, or malformed.
 pub fn decode_image(bytes: &[u8]) -> Result<Frame, String> {
+    Ok(decode_cutout(bytes)?.frame)
+}
+
+/// The same, with the transparency of a PNG.
+///
+/// # Errors
+/// As [`decode_image`].
+pub fn decode_cutout(bytes: &[u8]) -> Result<Cutout, String> {
     match bytes {
-        [0xFF, 0xD8, ..] => decode_jpeg(bytes),
-        _ => Ok(decode_png(bytes)?.frame),
+        [0xFF, 0xD8, ..] => decode_jpeg(bytes).map(Cutout::from),
+        _ => decode_png(bytes),
     }
 }
 
+/// Whether a JPEG goes on to its end marker: the decoder makes up what is missing.
+fn has_jpeg_end(bytes: &[u8]) -> bool {
+    // In pixels 0xFF is followed by 0, and restarts have no length.
+    let is_marker = |two: &[u8]| two[0] == 0xFF && !matches!(two[1], 0 | 1 | 0xD0..=0xD7 | 0xFF);
+    let mut rest = bytes.get(2..).unwrap_or_default();
+    while let Some(at) = rest.windows(2).position(is_marker) {
+        rest = &rest[at + 1..];
+        match *rest {
+            [0xD9, ..] => return true,
+            [_, high, low, ..] => {
+                let segment = 1 + usize::from(u16::from_be_bytes([high, low]));
+                rest = rest.get(segment..).unwrap_or_default();
+            }
+            _ => return false,
+        }
+    }
+    false
+}
+
 fn decode_jpeg(bytes: &[u8]) -> Result<Frame, String> {
+    if !has_jpeg_end(bytes) {
+        return Err("is not a good JPEG: it has no end".into());
+    }
     let malformed = |error: DecodeErrors| format!("is not a good JPEG: {error}");
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGB)
+        .set_strict_mode(true)
         .set_max_width(MAX_SIDE as usize)
         .set_max_height(MAX_SIDE as usize);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);

@@ -5,10 +5,12 @@
 #[macro_use]
 pub mod stdio;
 
+pub mod apart;
 pub mod compress;
 pub mod image_out;
 pub mod mock;
 pub mod model;
 pub mod reference;
 pub mod rooms;
+pub mod staged;
 pub mod texture_file;

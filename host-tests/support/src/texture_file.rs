@@ -25,6 +25,16 @@ pub enum TextureFileError {
         /// What the core said.
         error: TextureError,
     },
+    /// A picture that a material names, which is one of the others.
+    #[error("{}:{line}: {error}", file.display())]
+    Material {
+        /// The material file.
+        file: PathBuf,
+        /// Its line, from 1.
+        line: usize,
+        /// What is wrong with the picture.
+        error: Box<Self>,
+    },
 }
 
 /// Levels of detail that a picture is given, itself the first.
@@ -256,7 +266,15 @@ pub fn of_materials(model: &Model) -> Result<Vec<Option<TextureImage>>, TextureF
             continue;
         };
         if !read.contains_key(path.as_path()) {
-            read.insert(path, TextureImage::load(path)?);
+            let image = TextureImage::load(path).map_err(|error| match &material.map_kd_at {
+                Some((file, line)) => TextureFileError::Material {
+                    file: file.clone(),
+                    line: *line,
+                    error: error.into(),
+                },
+                None => error,
+            })?;
+            read.insert(path, image);
         }
         textures.push(read.get(path.as_path()).cloned());
     }

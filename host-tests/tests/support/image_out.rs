@@ -1,7 +1,7 @@
 //! What is written is read, and errors leave nothing.
 
 use host_support::image_out::{
-    Frame, encode_image, read_image, write_animation, write_image, write_strip,
+    Frame, Staged, encode_image, read_image, write_animation, write_image, write_strip,
 };
 use std::io::Cursor;
 use std::path::Path;
@@ -84,6 +84,36 @@ fn an_error_leaves_nothing() {
     std::fs::create_dir(folder.path().join("d.png")).unwrap();
     assert!(write_image(&folder.path().join("d.png"), &frame(2, 2, 0)).is_err());
     assert_eq!(names(folder.path()), ["d.png"]);
+}
+
+/// A folder in the place of the second, made after that is staged, refuses it. Kills: the first left in its place; what
+/// was there before lost; a name that is left beside.
+#[test]
+fn of_two_files_there_are_both_or_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let [first, second] = ["s.json", "o.png"].map(|name| folder.path().join(name));
+    let staged = || [&first, &second].map(|path| Staged::new(path, b"new").unwrap());
+    for old in [None, Some("old")] {
+        old.iter()
+            .for_each(|old| std::fs::write(&first, old).unwrap());
+        let [a, b] = staged();
+        std::fs::create_dir(&second).unwrap();
+        let error = a.commit_with(b).unwrap_err();
+        assert_eq!(error.file, second);
+        assert_eq!(std::fs::read_to_string(&first).ok().as_deref(), old);
+        std::fs::remove_dir(&second).unwrap();
+        assert_eq!(names(folder.path()).len(), old.iter().count());
+    }
+    // The first is refused: the second is not there.
+    let [a, b] = staged();
+    std::fs::remove_file(&first).unwrap();
+    std::fs::create_dir_all(first.join("full")).unwrap();
+    assert_eq!(a.commit_with(b).unwrap_err().file, first);
+    assert_eq!(names(folder.path()), ["s.json"]);
+    std::fs::remove_dir_all(&first).unwrap();
+    let [a, b] = staged();
+    a.commit_with(b).unwrap();
+    assert_eq!(names(folder.path()), ["o.png", "s.json"]);
 }
 
 #[test]

@@ -316,6 +316,7 @@ fn eyes_go_around_what_the_camera_looks_at() {
     let loaded = Loaded {
         scene,
         parts: Vec::new(),
+        files: Vec::new(),
     };
     let scenery = Scenery::of_scene(&loaded).unwrap();
     let args = Line::parse_from(["view", "s.json"]).view;

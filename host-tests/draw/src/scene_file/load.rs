@@ -4,6 +4,7 @@ use super::{Item, SceneFile};
 use crate::scenes::check;
 use crate::{TextureSet, TextureSetError};
 use host_support::model::{Model, ModelError};
+use host_support::stdio;
 use host_support::texture_file::TextureImage;
 use std::path::{Path, PathBuf};
 
@@ -59,6 +60,8 @@ pub struct Loaded {
     pub scene: SceneFile,
     /// Its objects.
     pub parts: Vec<Part>,
+    /// All files that it was read from.
+    pub files: Vec<PathBuf>,
 }
 
 impl Loaded {
@@ -71,20 +74,39 @@ impl Loaded {
             file: file.to_path_buf(),
             reason,
         };
-        let text = std::fs::read_to_string(file).map_err(|error| wrong(error.to_string()))?;
+        let text = std::fs::read_to_string(file)
+            .map_err(|error| wrong(format!("cannot be read: {}", stdio::reason(&error))))?;
         let scene = SceneFile::parse(&text).map_err(wrong)?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        let mut parts = Vec::new();
+        let (mut parts, mut files) = (Vec::new(), vec![file.to_path_buf()]);
         for (number, item) in scene.objects.iter().enumerate() {
-            let part = Part::load(item, folder, scene.has_palettes())?;
-            part.check().map_err(|reason| SceneFileError::Object {
+            let named = |reason| SceneFileError::Object {
                 file: file.to_path_buf(),
                 number,
                 reason,
-            })?;
+            };
+            let names = [
+                ("model", Some(&item.model)),
+                ("texture", item.texture.as_ref()),
+            ];
+            let is_nameless = |name: &PathBuf| name.as_os_str().is_empty();
+            let mut nameless = names
+                .iter()
+                .filter(|(_, name)| name.is_some_and(is_nameless));
+            if let Some((field, _)) = nameless.next() {
+                return Err(named(format!("`{field}` needs a name")));
+            }
+            let part = Part::load(item, folder, scene.has_palettes())?;
+            part.check().map_err(named)?;
+            files.extend(part.model.files().map(Path::to_path_buf));
+            files.extend(item.texture.iter().map(|picture| folder.join(picture)));
             parts.push(part);
         }
-        Ok(Self { scene, parts })
+        Ok(Self {
+            scene,
+            parts,
+            files,
+        })
     }
 
     /// What is not as in the files, or is left out of them, a line each.

@@ -90,6 +90,7 @@ pub(super) fn primitive(primitive: &Primitive<'_>, buffers: &[Vec<u8>]) -> Resul
         }
         lies_within(&accessor, buffers)?;
     }
+    agrees(primitive)?;
     let Some(accessor) = primitive.indices() else {
         return Ok(());
     };
@@ -99,6 +100,30 @@ pub(super) fn primitive(primitive: &Primitive<'_>, buffers: &[Vec<u8>]) -> Resul
         return Err(of_other_type(&accessor));
     }
     lies_within(&accessor, buffers)
+}
+
+/// Whether there are as many of each attribute as positions, and the places that its picture needs.
+fn agrees(primitive: &Primitive<'_>) -> Result<(), String> {
+    let positions = primitive.get(&Semantic::Positions).map(|a| a.count());
+    let material = primitive.material().pbr_metallic_roughness();
+    let set = material.base_color_texture().map(|info| info.tex_coord());
+    let places = set.map(Semantic::TexCoords);
+    if let Some(set) = set.filter(|set| primitive.get(&Semantic::TexCoords(*set)).is_none()) {
+        return Err(format!(
+            "its picture needs TEXCOORD_{set}, which it has not"
+        ));
+    }
+    for semantic in [Semantic::Normals, Semantic::Colors(0)]
+        .into_iter()
+        .chain(places)
+    {
+        let count = primitive.get(&semantic).map(|a| a.count());
+        if let (Some(count), Some(of)) = (count, positions.filter(|of| count != Some(*of))) {
+            let name = semantic.to_string();
+            return Err(format!("it has {count} of {name} for {of} positions"));
+        }
+    }
+    Ok(())
 }
 
 fn of_other_type(accessor: &Accessor<'_>) -> String {

@@ -58,6 +58,8 @@ pub struct Material {
     pub d: f64,
     /// Picture that multiplies the diffuse colour, its path already joined to the folder of the MTL file.
     pub map_kd: Option<PathBuf>,
+    /// The material file that names the picture, and its line there, from 1.
+    pub map_kd_at: Option<(PathBuf, usize)>,
 }
 
 impl Default for Material {
@@ -70,6 +72,7 @@ impl Default for Material {
             ns: 0.0,
             d: 1.0,
             map_kd: None,
+            map_kd_at: None,
         }
     }
 }
@@ -87,6 +90,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// What the files ask for and is left out, in the order of its discovery; the rest is drawn.
     pub warnings: Vec<ModelError>,
+    /// The files that it was read from, without the pictures that `materials` name.
+    pub sources: Vec<PathBuf>,
 }
 
 impl Model {
@@ -96,7 +101,9 @@ impl Model {
     /// See [`ModelError`]: unreadable file, malformed line, index out of range, number that is not finite.
     pub fn load(path: &Path) -> Result<Self, ModelError> {
         let text = read_text(path)?;
-        Self::from_obj_text(&text, path)
+        let mut model = Self::from_obj_text(&text, path)?;
+        model.sources.push(path.to_path_buf());
+        Ok(model)
     }
 
     /// Reads OBJ text. `file` names it in errors, and its folder is where MTL files are looked for.
@@ -105,6 +112,18 @@ impl Model {
     /// As [`Model::load`].
     pub fn from_obj_text(text: &str, file: &Path) -> Result<Self, ModelError> {
         obj::read(text, file)
+    }
+
+    /// Whether textures have places on it: one of its vertices has, or it has none.
+    #[must_use]
+    pub fn has_places(&self) -> bool {
+        self.vertices.is_empty() || self.vertices.iter().any(|v| v.uv != [0.0; 2])
+    }
+
+    /// All files that are read with it: its own, and the pictures of its materials.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let pictures = self.materials.iter().filter_map(|m| m.map_kd.as_ref());
+        self.sources.iter().chain(pictures).map(PathBuf::as_path)
     }
 
     /// Prints the warnings on stderr, a line each.

@@ -42,6 +42,7 @@ pub(super) fn read(
                 }
                 let folder = file.parent().unwrap_or(Path::new(""));
                 material.map_kd = Some(folder.join(name));
+                material.map_kd_at = Some((file.to_path_buf(), statement.line()));
             }
         }
     }

@@ -55,6 +55,8 @@ struct Lists {
     /// A library was missing, so names without a material are no surprise.
     incomplete: bool,
     warnings: Vec<ModelError>,
+    /// Material files that were read.
+    sources: Vec<PathBuf>,
 }
 
 /// Reads OBJ text and the MTL files that it names.
@@ -197,6 +199,7 @@ impl Lists {
                 Some(path) => {
                     let materials = mtl::read(&read_text(&path)?, &path, &mut self.warnings)?;
                     self.materials.extend(materials);
+                    self.sources.push(path);
                 }
                 None => {
                     self.incomplete = true;
@@ -328,6 +331,7 @@ impl Lists {
         }
         model.materials = self.materials;
         model.warnings = self.warnings;
+        model.sources = self.sources;
         Ok(model)
     }
 }
