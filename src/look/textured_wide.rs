@@ -84,13 +84,10 @@ fn lights(course: &Course) -> [Light; 2] {
     [Light::of(at), Light::of(course.step)]
 }
 
-/// Texels as pixels: up to 64 at `place`, times the triangle's shade. Out of line: where it is called there are no registers
-/// left for it.
+/// Texels as pixels: up to 64 at `place`, where the triangle's shade begins anew. Out of line: where it is called there are
+/// no registers left for it.
 #[inline(never)]
 fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mut [F::Word]) {
-    if place.skipped() as usize % AT_ONCE != 0 {
-        return shade_part::<F>(planes, &place, texels, run);
-    }
     let Some(course) = planes.shade_course(place) else {
         return light::<F>(Light::FULL, Light::NONE, texels, run);
     };
@@ -102,11 +99,10 @@ fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mu
 #[inline(never)]
 fn shade_part<F: PixelFormat>(
     planes: &Planes,
-    place: &Place,
+    mut place: Place,
     mut texels: &[u16],
     mut run: &mut [F::Word],
 ) {
-    let mut place = *place;
     while !run.is_empty() {
         let part = place.skipped() as usize % AT_ONCE;
         let pixels = run.len().min(AT_ONCE - part);
@@ -188,7 +184,21 @@ fn recoloured<F: PixelFormat, T: Texel>(texel: u16) -> F::Word {
     F::from_rgb8(T::to_rgb8(texel))
 }
 
-/// Colours a run, texels first.
+/// Colours a run that is not the first of its span, texels first.
+#[inline(never)]
+fn fill_part<F: PixelFormat>(
+    how: Fill,
+    planes: &Planes,
+    place: Place,
+    draws: &[DrawState<'_>],
+    run: &mut [F::Word],
+) {
+    each_texels::<_, Rgb565>(how, planes, place, draws, run, |place, texels, run| {
+        shade_part::<F>(planes, place, texels, run);
+    });
+}
+
+/// Colours a run with which a span begins, likewise.
 #[inline(never)]
 fn fill<F: PixelFormat>(
     how: Fill,
@@ -211,7 +221,7 @@ fn fill_opaque<F: PixelFormat>(
     run: &mut [F::Word],
 ) -> u32 {
     let Some(holes) = planes.holes(draws) else {
-        fill::<F>(Fill::Wide, planes, place, draws, run);
+        fill_part::<F>(Fill::Wide, planes, place, draws, run);
         return u32::MAX;
     };
     each_holed::<F, Rgb565>(planes, place, draws, holes, run, |place, texels, run| {
@@ -220,7 +230,7 @@ fn fill_opaque<F: PixelFormat>(
         } else {
             texels
         };
-        shade::<F>(planes, place, texels, run);
+        shade_part::<F>(planes, place, texels, run);
     })
 }
 
@@ -251,7 +261,11 @@ macro_rules! wide {
                 draws: &[DrawState<'_>],
                 run: &mut [<$format as PixelFormat>::Word],
             ) {
-                fill::<$format>(how, planes, place, draws, run);
+                if place.skipped() == 0 {
+                    fill::<$format>(how, planes, place, draws, run);
+                } else {
+                    fill_part::<$format>(how, planes, place, draws, run);
+                }
             }
 
             #[inline(always)]
