@@ -14,6 +14,7 @@ use std::vec::Vec;
 
 mod kept;
 mod paced;
+mod player;
 
 const WIDTH: u16 = 96;
 

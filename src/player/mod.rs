@@ -27,8 +27,6 @@ mod play;
 mod queue;
 mod shadows;
 mod state;
-#[cfg(test)]
-mod tests;
 mod textures;
 
 pub use lights::LightRoom;

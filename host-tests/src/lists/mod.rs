@@ -68,7 +68,14 @@ pub fn read_list(path: &Path) -> Result<Vec<u32>, Box<dyn Error>> {
 fn is_other(path: &Path, bytes: &[u8]) -> bool {
     let extension = path.extension().unwrap_or_default();
     let is = |name: &&str| extension.eq_ignore_ascii_case(name);
-    let first = bytes.first_chunk().map(|word| u32::from_ne_bytes(*word));
+    let is_text = |word: &&[u8; 4]| {
+        word.iter()
+            .all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace())
+    };
+    let first = bytes
+        .first_chunk()
+        .filter(is_text)
+        .map(|word| u32::from_ne_bytes(*word));
     let is_unknown = |word| matches!(Header::read(word), Err(Reason::Version(_)));
     ["obj", "gltf", "glb", "json"].iter().any(is) || first.is_some_and(is_unknown)
 }
