@@ -14,7 +14,6 @@ use std::vec::Vec;
 
 mod kept;
 mod paced;
-mod player;
 
 const WIDTH: u16 = 96;
 

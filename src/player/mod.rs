@@ -27,6 +27,8 @@ mod play;
 mod queue;
 mod shadows;
 mod state;
+#[cfg(test)]
+mod tests;
 mod textures;
 
 pub use lights::LightRoom;

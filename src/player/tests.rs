@@ -3,6 +3,7 @@
 mod flow;
 mod textures;
 
+use super::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use crate::event::{Event, Notice};
 use crate::frame::{FastMemory, Memory as LineMemory, Renderer};
 use crate::geometry::{Camera, Screen};
@@ -10,7 +11,6 @@ use crate::link::Link;
 use crate::list::{Budget, Halt, ListError, ListRing, TextureSlot, Words};
 use crate::look::Textured;
 use crate::pixel::Rgb565;
-use crate::player::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use crate::scene::{DrawState, Memory, Object, Scene, Texture, TexturePlace, Vertex};
 use core::sync::atomic::AtomicU32;
 use std::vec;
