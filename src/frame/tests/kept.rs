@@ -18,7 +18,7 @@ type Smooth = Gouraud<Rgb565>;
 const SIDE: u16 = 40;
 const RED: [u8; 3] = [255, 0, 0];
 const BLUE: [u8; 3] = [0, 0, 255];
-/// Of no height at a depth.
+/// Triangles that face the camera.
 const NEAR: [[i16; 3]; 3] = at_depth(4_000);
 const FAR: [[i16; 3]; 3] = at_depth(-4_000);
 
