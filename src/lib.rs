@@ -36,7 +36,8 @@
 //! ) -> Result<frame::FrameUse, Box<dyn std::error::Error>>
 //! # where D::Error: std::error::Error + 'static
 //! {
-//!     let camera = Camera::look_at([0.0, 1.0, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 10.0)?;
+//!     let (eye, middle, up) = ([0.0, 1.0, 3.0], [0.0; 3], [0.0, 1.0, 0.0]);
+//!     let camera = Camera::look_at(eye, middle, up, 300.0, 0.1, 10.0)?;
 //!     scene.begin(&camera)?;
 //!     let drawn = scene.draw(&Draw {
 //!         model: Affine::rotation_y(turn),
