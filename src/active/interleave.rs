@@ -80,7 +80,7 @@ impl Interleave {
         if ahead == 0 {
             line
         } else {
-            (at + ahead) * band
+            at.saturating_add(ahead).saturating_mul(band)
         }
     }
 
@@ -103,6 +103,18 @@ impl Default for Interleave {
 #[cfg(test)]
 mod tests {
     use super::Interleave;
+
+    /// Kills: a line beyond all lines that overflows.
+    #[test]
+    fn lines_end_with_the_last_number() {
+        for (offset, band) in [(0, 3), (1, 3), (2, 1), (1, 65_535)] {
+            let lines = Interleave::bands(65_535, offset, band).unwrap();
+            assert!(lines.at_or_after(u32::MAX) >= u32::MAX - u32::from(band));
+            let first = u32::from(offset) * u32::from(band);
+            let count = usize::from(band).min(65_535usize.saturating_sub(first as usize));
+            assert_eq!(lines.of(0..65_535).count(), count, "{offset} {band}");
+        }
+    }
 
     #[test]
     fn every_line_has_one_owner() {

@@ -153,7 +153,7 @@ where
     pump.begin(window(scene), lines_per_transfer)?;
     for line in scene.lines() {
         let pixels = pump.line()?;
-        let drawn = draw(renderer, line, pixels);
+        let drawn = draw(renderer, line, pixels).inspect_err(|_| pump.give_up());
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
         pump.line_done()?;
         renderer.fetch_known(scene);

@@ -24,8 +24,8 @@ impl<'w> Texels<'w> {
         }
     }
 
-    /// Red, green, blue and alpha of the texel at an index, 8 bits each; 0 where there is none, or
-    /// no such colour.
+    /// Red, green, blue and alpha of the texel at an index, 8 bits each. Beyond the words all bits are 0; a
+    /// colour that is not there is 0 too.
     #[inline(always)]
     #[must_use]
     pub fn rgba(&self, index: u32) -> [u8; 4] {
@@ -46,8 +46,8 @@ impl<'w> Texels<'w> {
                 return [r, g, b, grown(u32::from(a), 7)];
             }
         };
-        let bit = index << log_bits;
-        let code = self.word(bit >> 5) >> (bit & 31) & mask;
+        let bit = index << log_bits & 31;
+        let code = self.word(index >> (5 - log_bits)) >> bit & mask;
         let colour = self.colours.get(code as usize);
         colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
     }
@@ -70,11 +70,11 @@ impl<'w> Texels<'w> {
 
     /// Three bytes, which may lie in two words.
     fn rgb888(&self, index: u32) -> [u8; 4] {
-        let byte = index.wrapping_mul(3);
-        let shift = 8 * (byte & 3);
-        let low = self.word(byte >> 2) >> shift;
+        let byte = (index & 3) * 3;
+        let (word, shift) = ((index >> 2) * 3 + (byte >> 2), 8 * (byte & 3));
+        let low = self.word(word) >> shift;
         // The upper bytes of the next word, if they are needed; none by a shift of 32.
-        let high = u64::from(self.word((byte >> 2) + 1)) << (32 - shift);
+        let high = u64::from(self.word(word + 1)) << (32 - shift);
         let [r, g, b, _] = (low | high as u32).to_le_bytes();
         [r, g, b, 255]
     }
@@ -340,6 +340,28 @@ mod tests {
         }
         let word = |b: &[u8]| u32::from_ne_bytes([0, 1, 2, 3].map(|i| *b.get(i).unwrap_or(&0)));
         bytes.chunks(4).map(word).collect()
+    }
+
+    /// Kills: a number of a texel that is none, and is taken for another's.
+    #[test]
+    fn what_is_beyond_all_words_is_no_texel() {
+        let (words, mut colours) = ([u32::MAX; 4], [u32::MAX; 256]);
+        colours[0] = 0;
+        for form in [
+            TexelForm::Index1,
+            TexelForm::Index2,
+            TexelForm::Index4,
+            TexelForm::Index6,
+            TexelForm::Index8,
+            TexelForm::Rgb888,
+        ] {
+            let texels = Texels::new(&words, form, &colours);
+            assert_eq!(texels.rgba(1)[..3], [255; 3]);
+            for shift in [20, 28, 29, 30, 31] {
+                let rgba = texels.rgba(1 << shift);
+                assert_eq!(rgba[..3], [0; 3], "{form:?} {shift}");
+            }
+        }
     }
 
     /// Each field is within a step of what it stands for, and no two words are the same texel (H7).

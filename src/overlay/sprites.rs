@@ -77,8 +77,9 @@ impl<W: Copy + PartialEq> Sprite<'_, W> {
                     .for_each(|pixel| *pixel = F::add(*pixel, word)),
             },
             Pixels::Image(image) => {
-                let from = row as usize * usize::from(self.width) + skipped;
-                let Some(above) = image.get(from..from + count) else {
+                let mut lines = image.chunks_exact(usize::from(self.width).max(1));
+                let line = lines.nth(row as usize);
+                let Some(above) = line.and_then(|line| line.get(skipped..skipped + count)) else {
                     return;
                 };
                 let pairs = below.iter_mut().zip(above);
@@ -243,6 +244,27 @@ mod tests {
     fn added(a: u16, b: u16) -> u16 {
         let channel = |at: u32, most: u16| ((a >> at & most) + (b >> at & most)).min(most) << at;
         channel(11, 31) | channel(5, 63) | channel(0, 31)
+    }
+
+    /// Kills: a line of an image, the end of which is not there, painted where the end is not seen.
+    #[test]
+    fn a_line_that_is_not_whole_is_left_out_wherever_it_is_cut() {
+        for x in [0, 1, 2] {
+            let sprites = [Sprite {
+                x,
+                y: 0,
+                width: 3,
+                height: 2,
+                pixels: Pixels::Image(&[1, 2, 3, 5, 6]),
+                ink: Ink::Opaque,
+            }];
+            let mut line = [9; 3];
+            let mut overlay = Overlay::<Rgb565>::new(&sprites).unwrap();
+            overlay.paint(1, &mut line);
+            assert_eq!(line, [9; 3]);
+            overlay.paint(0, &mut line);
+            assert_eq!(line[x as usize], 1);
+        }
     }
 
     #[test]

@@ -93,8 +93,8 @@ fn is_white(grey: u8, column: usize, line: u16) -> bool {
 ///
 /// Pixels beyond `out`, and bits of `out` beyond the line, are left out: the latter become 0.
 pub fn mono_row(grey: &[u8], line: u16, out: &mut [u8]) {
+    out.fill(0);
     for (byte, eight) in out.iter_mut().zip(grey.chunks(8)) {
-        *byte = 0;
         for (column, grey) in eight.iter().enumerate() {
             *byte |= u8::from(is_white(*grey, column, line)) << (7 - column);
         }
@@ -109,7 +109,8 @@ pub fn mono_row(grey: &[u8], line: u16, out: &mut [u8]) {
 /// have are black.
 pub fn mono_page(grey: &[u8], width: usize, line: u16, out: &mut [u8]) {
     let count = width.min(out.len());
-    out[..count].fill(0);
+    let out = &mut out[..count];
+    out.fill(0);
     for (row, bit) in grey.chunks_exact(width.max(1)).zip(0..8) {
         let line = line.wrapping_add(bit);
         for (column, (byte, grey)) in out.iter_mut().zip(row).enumerate() {
@@ -142,6 +143,17 @@ mod tests {
         for level in 0..=255 {
             assert_eq!(Grey8::from_rgb8([level; 3]), level);
         }
+    }
+
+    /// Kills: bytes beyond a line that keep what they were, and columns that a page of none has.
+    #[test]
+    fn what_is_beyond_a_line_is_as_it_is_said() {
+        let mut out = [0xFF; 3];
+        mono_row(&[0; 8], 0, &mut out);
+        assert_eq!(out, [0; 3]);
+        let mut out = [0x5A; 2];
+        mono_page(&[255; 9], 0, 0, &mut out);
+        assert_eq!(out, [0x5A; 2]);
     }
 
     #[test]

@@ -131,7 +131,7 @@ impl<'b, D: AsyncLineWriter> AsyncPump<'b, D> {
         draw: impl FnMut(u16, &mut [D::Word]) -> Result<(), E>,
     ) -> Result<(), E> {
         let band = lines_per_transfer.min(window.height);
-        if window.width == 0 || band == 0 {
+        if window.width == 0 || band == 0 || !window.has_ends() {
             return Err(ScanError::Empty.into());
         }
         let needed = usize::from(window.width).saturating_mul(usize::from(band));

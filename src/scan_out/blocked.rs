@@ -124,7 +124,8 @@ impl<'f, W: Copy> BlockFrame<'f, W> {
     /// Writes a run of words that lie in one row of a block.
     fn write_run(&mut self, column: usize, line: usize, run: &[W]) {
         let (block, at) = self.place(column, line);
-        self.page_changes += u32::from(self.page != Some(block));
+        let is_other = u32::from(self.page != Some(block));
+        self.page_changes = self.page_changes.saturating_add(is_other);
         self.page = Some(block);
         if let Some(row) = self.words.get_mut(at..at + run.len()) {
             row.copy_from_slice(run);
@@ -205,6 +206,23 @@ mod tests {
         assert_eq!((frame.word(width, 0), frame.word(0, height)), (None, None));
         let changes = frame.page_changes();
         (words, changes)
+    }
+
+    /// Kills: a counter that overflows after some days.
+    #[test]
+    fn page_changes_stay_at_their_maximum() {
+        let mut words = [0; 16];
+        let mut frame = BlockFrame::new(&mut words, 4, 4, Blocked::new(1, 1).unwrap()).unwrap();
+        frame.page_changes = u32::MAX;
+        let window = Window {
+            x: 0,
+            y: 0,
+            width: 4,
+            height: 4,
+        };
+        frame.open(window).unwrap();
+        frame.write(window, &[7; 16]).unwrap();
+        assert_eq!(frame.page_changes(), u32::MAX);
     }
 
     /// Kills: rows of blocks by the picture's width where that is no multiple of a block's, a pixel of the rim that is

@@ -1,7 +1,8 @@
 //! Which lines the display shows already, by a hash of 32 bits a line (SPEC X4, M4).
 //!
 //! The hash goes over a line two 16-bit pixels at a time: exclusive or, fold, multiply, fold. Each step is one to one,
-//! so lines that differ in one pair of pixels alone never have the same hash. Both folds are needed: with a rotation
+//! so lines that differ in one pair of pixels alone have the same hash only where that of one would be 0, which is
+//! not used. Lines of other lengths begin with other numbers. Both folds are needed: with a rotation
 //! in their place, one changed bit of a pair is undone by one or two of the next, and the tests found such lines.
 //!
 //! **A line that has changed in more places is taken for unchanged with a probability of about 2^-32**, as for any hash of
@@ -23,7 +24,7 @@ pub(super) fn step(hash: u32, value: u32) -> u32 {
 /// A hash of a line by the bytes of its words, never 0; on all targets the same where these are.
 pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
     let hash = match size_of::<W>() {
-        0..=2 => line.chunks(2).fold(1, |hash, pair| {
+        0..=2 => line.chunks(2).fold(line.len() as u32, |hash, pair| {
             let pair = match pair {
                 [a, b] => number(bytes_of(a)) | number(bytes_of(b)) << 16,
                 [a] => number(bytes_of(a)),
@@ -31,7 +32,7 @@ pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
             };
             step(hash, pair)
         }),
-        _ => line.iter().fold(1, |hash, word| {
+        _ => line.iter().fold(line.len() as u32, |hash, word| {
             let parts = bytes_of(word).chunks(4);
             parts.fold(hash, |hash, part| step(hash, number(part)))
         }),
@@ -142,6 +143,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Kills: lines of other lengths that have one hash.
+    #[test]
+    fn a_line_is_not_itself_and_black_pixels() {
+        for line in [[1u16, 2, 3, 0], [7, 0, 0, 0], [0; 4]] {
+            let hashes: Vec<u32> = (1..=4).map(|len| hash(&line[..len])).collect();
+            for (k, hash) in hashes.iter().enumerate() {
+                assert!(!hashes[..k].contains(hash), "{line:?} {k}");
+            }
+        }
+        assert_ne!(hash(&[1u8, 2, 3]), hash(&[1u16, 2, 3, 0]));
     }
 
     /// Kills: a last pixel without a partner that is left out.

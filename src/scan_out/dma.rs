@@ -77,6 +77,14 @@ pub struct Window {
     pub height: u16,
 }
 
+impl Window {
+    /// Whether its right and bottom ends are numbers of 16 bits.
+    pub(super) fn has_ends(self) -> bool {
+        let ends = [(self.x, self.width), (self.y, self.height)];
+        ends.iter().all(|&(at, len)| at.checked_add(len).is_some())
+    }
+}
+
 /// A buffer of one or more lines that can be moved into a sink and back.
 ///
 /// `'static`, so that a sink that is forgotten while it sends leaves the buffer where it is.

@@ -63,10 +63,12 @@ where
         return Err(ScanError::BufferTooShort { needed, have }.into());
     };
     pump.begin(sent, lines_per_transfer)?;
-    draw(0, above)?;
+    let mut draw =
+        |pump: &mut Pump<D>, line, to: &mut _| draw(line, to).inspect_err(|_| pump.give_up());
+    draw(pump, 0, above)?;
     send(pump, &mix, above, above)?;
     for line in 1..window.height {
-        draw(line, below)?;
+        draw(pump, line, below)?;
         send(pump, &mix, above, below)?;
         send(pump, &mix, below, above)?;
         core::mem::swap(above, below);

@@ -87,14 +87,16 @@ impl<'m> ShownRuns<'m> {
         }
     }
 
-    /// A row of cells is complete: marks those that are other than what is shown; they are about to be shown.
-    /// `line` is the row's top line on the display.
-    pub(super) fn compare(&mut self, line: u16) {
+    /// A row of cells is complete, from column `x` on, `width` columns wide: marks those that are other than what is
+    /// shown; they are about to be shown. `line` is the row's top line on the display.
+    pub(super) fn compare(&mut self, line: u16, x: u16, width: u16) {
         let row = usize::from(line / self.lines);
         self.unfinished = self.unfinished.max(row + 1);
-        let shown = self.hashes.iter_mut().skip(row * self.sums.len());
+        let (left, count) = (x / self.columns, width.div_ceil(self.columns));
+        let at = row * self.sums.len() + usize::from(left);
+        let shown = self.hashes.iter_mut().skip(at);
         let mut shown = shown.map(Some).chain(core::iter::repeat_with(|| None));
-        for sum in &mut *self.sums {
+        for sum in self.sums.iter_mut().skip(left.into()).take(count.into()) {
             let hash = core::mem::take(sum).max(1);
             let changed = match shown.next().flatten() {
                 Some(shown) => core::mem::replace(shown, hash) != hash,

@@ -169,7 +169,7 @@ impl<D: ScanoutDma> Pump<D> {
     ) -> Result<u16, ScanError<D::Error>> {
         self.recover()?;
         let band_lines = lines_per_transfer.min(window.height);
-        if window.width == 0 || band_lines == 0 {
+        if window.width == 0 || band_lines == 0 || !window.has_ends() {
             return Err(ScanError::Empty);
         }
         if self.idle.iter().any(Option::is_none) {
@@ -325,14 +325,12 @@ impl<D: ScanoutDma> Pump<D> {
         }
         let line = self.band_first;
         if self.in_parts {
-            self.open_part(
-                line,
-                Window {
-                    y: window.y.saturating_add(line),
-                    height: self.band_filled,
-                    ..window
-                },
-            )?;
+            let part = Window {
+                y: window.y + line,
+                height: self.band_filled,
+                ..window
+            };
+            self.open_part(line, part)?;
         }
         let Some(buf) = self.filling.take() else {
             return Err(ScanError::BufferLost { line });
@@ -403,10 +401,10 @@ impl<D: ScanoutDma> Pump<D> {
             match self.dma.poll() {
                 Poll::Pending => {
                     self.stats.stall_polls = self.stats.stall_polls.saturating_add(1);
+                    polls = polls.saturating_add(1);
                     if self.max_polls.is_some_and(|max| polls >= max) {
                         return Err(ScanError::Timeout { line });
                     }
-                    polls = polls.saturating_add(1);
                     core::hint::spin_loop();
                 }
                 Poll::Ready(Ok(Some(buf))) => {
@@ -438,6 +436,11 @@ impl<D: ScanoutDma> Pump<D> {
             }
         }
         error
+    }
+
+    /// Ends a frame that is given up; what the sink says to that shows again in `begin`.
+    pub(crate) fn give_up(&mut self) {
+        let _ = self.recover();
     }
 
     /// Ends the frame, brings the buffers home and closes the sink's rectangle.
@@ -492,3 +495,6 @@ fn part<D: ScanoutDma>(
         .get_mut(range)
         .ok_or(ScanError::BufferTooShort { needed, have })
 }
+
+#[cfg(test)]
+mod tests;

@@ -10,7 +10,8 @@ use core::fmt::{self, Display};
 pub enum ScanError<E> {
     /// The sink refused or failed.
     Sink {
-        /// The first line of the transfer that failed; 0 when opening and the window's height when closing failed.
+        /// The first line of the transfer that failed, or of the lines of the rectangle that did not open or close;
+        /// the window's height where the whole window's did not close.
         line: u16,
         /// What the sink said.
         error: E,
@@ -29,7 +30,7 @@ pub enum ScanError<E> {
         /// Words that the buffer holds.
         have: usize,
     },
-    /// The window has no pixels, or a transfer was to have no lines. Nothing was sent.
+    /// The window has no pixels, or ends beyond 65,535, or a transfer was to have no lines. Nothing was sent.
     Empty,
     /// A call out of turn: a line before `begin` or after the last one, `line_done` without `line`, `finish`
     /// without `begin`. Nothing has changed.

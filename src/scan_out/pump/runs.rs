@@ -28,6 +28,8 @@ pub struct RunFrame<'p, 'm, D: ScanoutDma> {
     packed: Window,
     /// Whether the line `first + drawn` was handed out.
     handed: bool,
+    /// Whether an error has ended the frame.
+    failed: bool,
 }
 
 impl<D: ScanoutDma> Pump<D> {
@@ -67,6 +69,7 @@ impl<D: ScanoutDma> Pump<D> {
                 ..window
             },
             handed: false,
+            failed: false,
         })
     }
 }
@@ -79,17 +82,14 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
     /// `BufferTooShort` when the sink gave back a shorter buffer than it took.
     pub fn line(&mut self) -> Result<&mut [WordOf<D>], ScanError<D::Error>> {
         let line = self.first + self.drawn;
-        if line >= self.window.height {
+        if self.failed || line >= self.window.height {
             return Err(ScanError::OutOfTurn { line });
         }
         if self.pump.filling.is_none() {
             self.pump.filling = Some(self.spare()?);
         }
-        let range = self.drawn_words();
-        if let Err(error) = part::<D>(&mut self.pump.filling, range.clone(), line) {
-            return Err(self.fail(error));
-        }
         self.handed = true;
+        let range = self.drawn_words();
         part::<D>(&mut self.pump.filling, range, line)
     }
 
@@ -126,17 +126,19 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
 
     /// Ends the frame, which gives no line any more, after `error`, which is handed through.
     fn fail(&mut self, error: ScanError<D::Error>) -> ScanError<D::Error> {
-        self.first = self.window.height;
-        (self.drawn, self.handed) = (0, false);
+        (self.failed, self.handed) = (true, false);
         self.pump.fail(error)
     }
 
     /// Ends the frame: sends what is left, waits until both buffers are home, and closes the last rectangle.
     ///
     /// # Errors
-    /// `LinesMissing` when not every line was done; else what sending or closing said.
+    /// `OutOfTurn` after an error; `LinesMissing` when not every line was done; else what sending or closing said.
     pub fn finish(mut self) -> Result<(), ScanError<D::Error>> {
         let line = self.first + self.drawn;
+        if self.failed {
+            return Err(ScanError::OutOfTurn { line });
+        }
         self.send_rest().map_err(|error| self.pump.fail(error))?;
         if line < self.window.height {
             return Err(ScanError::LinesMissing { line });
@@ -162,7 +164,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
             ..self.window
         };
         let (x, width) = (self.window.x, self.window.width);
-        self.shown.compare(self.window.y.saturating_add(row.y));
+        self.shown.compare(self.window.y + row.y, x, width);
         let mut unsent = words(row);
         let mut run = self.shown.next_run(x, width, 0);
         let single = run
@@ -281,7 +283,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         packed
     }
 
-    /// A buffer that is home, after waiting for it.
+    /// A buffer that is home and holds a transfer, after waiting for it.
     fn spare(&mut self) -> Result<D::Buf, ScanError<D::Error>> {
         if self.pump.idle.iter().all(Option::is_none) && self.pump.in_flight > 0 {
             if let Err(error) = self.pump.wait_home() {
@@ -290,14 +292,21 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         }
         let line = self.first;
         let idle = self.pump.idle.iter_mut().find_map(Option::take);
-        idle.ok_or(ScanError::BufferLost { line })
+        let mut buffer = idle.ok_or(ScanError::BufferLost { line })?;
+        let needed = usize::from(self.window.width) * usize::from(self.band_lines);
+        let have = buffer.pixels().len();
+        if have >= needed {
+            return Ok(buffer);
+        }
+        self.pump.put_idle(buffer);
+        Err(self.fail(ScanError::BufferTooShort { needed, have }))
     }
 
     /// Opens the rectangle of `part`, which is in pixels of the window, and starts its transfer.
     fn send(&mut self, part: Window, buf: D::Buf) -> Result<(), ScanError<D::Error>> {
         let on_display = Window {
-            x: self.window.x.saturating_add(part.x),
-            y: self.window.y.saturating_add(part.y),
+            x: self.window.x + part.x,
+            y: self.window.y + part.y,
             ..part
         };
         if let Err(error) = self.pump.open_part(part.y, on_display) {
