@@ -357,9 +357,10 @@ mod tests {
         ] {
             let texels = Texels::new(&words, form, &colours);
             assert_eq!(texels.rgba(1)[..3], [255; 3]);
-            for shift in [20, 28, 29, 30, 31] {
-                let rgba = texels.rgba(1 << shift);
-                assert_eq!(rgba[..3], [0; 3], "{form:?} {shift}");
+            // Three times the last is 2^32 and 2.
+            for index in [1 << 20, 1 << 28, 1 << 29, 1 << 30, 1 << 31, 0x5555_5556] {
+                let rgba = texels.rgba(index);
+                assert_eq!(rgba[..3], [0; 3], "{form:?} {index}");
             }
         }
     }
