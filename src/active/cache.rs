@@ -84,7 +84,7 @@ pub struct Changes {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CacheUse {
-    /// Objects that found a slot when they began, fetched ahead or not.
+    /// Objects for which there was a slot when they began, fetched ahead or not; those without a pixel too.
     pub hits: u32,
     /// Objects that found none.
     pub spilled: u32,
@@ -92,7 +92,8 @@ pub struct CacheUse {
     pub moved_in: u32,
     /// Lines of objects that were drawn from slow memory: each line on which one without a slot has pixels.
     pub misses: u32,
-    /// Set-ups: of slots, and of objects without one, once a line, on lines with values once for each time one is drawn.
+    /// Set-ups: of slots, and of objects without one, once a line, twice where two meet that were thought to be alone, on
+    /// lines with values once for each time one is drawn.
     pub set_ups: u32,
     /// Set-ups of slots of which a side turns on a line farther down: there the record is read again.
     pub turning: u32,

@@ -52,6 +52,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         }
         self.check_shadow(draw.shadow, draw.priority)?;
         self.is_ranked |= draw.priority != 0;
+        self.has_shadows |= draw.shadow.is_some();
         let skipped = triangles(draw.mesh.faces);
         let done = &mut self.assembled;
         done.triangles += skipped;

@@ -46,7 +46,7 @@ pub struct FrameUse {
     pub assembled: Assembled,
     /// The object cache.
     pub cache: CacheUse,
-    /// Lines on which nothing is active.
+    /// Lines that were skipped, since nothing is active there; that below an object without a slot may be looked at.
     pub lines_skipped: u32,
     /// What was sent.
     pub scan_out: ScanStats,

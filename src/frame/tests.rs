@@ -14,6 +14,7 @@ use std::vec::Vec;
 
 mod kept;
 mod paced;
+mod shadowed;
 
 const WIDTH: u16 = 96;
 

@@ -103,7 +103,6 @@ impl<'t, L> Scene<'_, 't, L> {
         if self.draws.push(state).is_none() {
             return Err(self.lose_call(submitted));
         }
-        self.has_shadows |= draw.shadow.is_some();
         self.generation = next_change();
         let is_plain = self.is_plain(draw);
         let colour = if is_replaced { [255; 3] } else { draw.colour };
@@ -153,6 +152,7 @@ impl<'t, L> Scene<'_, 't, L> {
             self.count_untextured(state.first.into());
         }
         self.has_values |= state.has_values();
+        self.has_shadows |= draw.shadow.is_some();
         self.is_ruled |= state.rules();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)

@@ -73,6 +73,7 @@ impl<'t, L> Scene<'_, 't, L> {
             mesh: EMPTY,
             light: None,
             lights: None,
+            texgen: None,
             texture: draw.texture.map(|skin| Skin {
                 places: &[],
                 ..skin

@@ -99,6 +99,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let shadow = Some(Shadow::Volume(light.light));
         self.check_shadow(shadow, 0)?;
         if self.master.leaves_out(shadow) {
+            self.has_shadows = true;
             return Ok(());
         }
         let extrusion = Extrusion::new(light, model);
@@ -166,9 +167,11 @@ impl<'t, L> Scene<'_, 't, L> {
             return Ok(());
         }
         let state = DrawState::new(self.objects.len() as u16, cap, self.master);
-        let full = DrawError::no_draws(0);
-        self.draws.push(state).ok_or(full)?;
-        self.push_back(0)?;
+        // How many triangles would close it nobody knows yet; they count as one.
+        if self.draws.push(state).is_none() {
+            return Err(self.lose_call(1));
+        }
+        self.push_back(1)?;
         let mut pass = Pass::dark(view, &self.scale, self.vertices.len());
         let mut submitted = 0;
         for is_back in [false, true] {
@@ -199,19 +202,23 @@ impl<'t, L> Scene<'_, 't, L> {
                 }
             });
         }
+        // One of both passes cannot see it.
+        pass.culled = pass.culled.saturating_sub(submitted);
         self.count(&pass, submitted)
     }
 
     /// Files a triangle that lies in the near plane, cut to the guard band.
     fn file_cut(&mut self, points: [Point; 3], number: u32, pass: &mut Pass<'_>) {
         let colour = pass.one.unwrap_or_default();
-        let (view, mut lost) = (pass.view, None);
+        let (view, before, mut lost) = (pass.view, self.objects.len(), None);
         let corners = points.map(|point| Corner::cut(point, colour));
         cut_all(&corners, &view, 0, &mut |piece| {
             lost = lost.or(self.file_piece(piece, &[], pass).err());
         });
         if let Some(memory) = lost {
             pass.lost.lose(memory, number);
+        } else if self.objects.len() == before {
+            pass.culled += 1;
         }
     }
 

@@ -13,13 +13,13 @@ use crate::scene::{
 use std::boxed::Box;
 use std::vec::Vec;
 
-type Smooth = Gouraud<Rgb565>;
+pub(super) type Smooth = Gouraud<Rgb565>;
 
-const SIDE: u16 = 40;
-const RED: [u8; 3] = [255, 0, 0];
+pub(super) const SIDE: u16 = 40;
+pub(super) const RED: [u8; 3] = [255, 0, 0];
 const BLUE: [u8; 3] = [0, 0, 255];
 /// Triangles that face the camera.
-const NEAR: [[i16; 3]; 3] = at_depth(4_000);
+pub(super) const NEAR: [[i16; 3]; 3] = at_depth(4_000);
 const FAR: [[i16; 3]; 3] = at_depth(-4_000);
 
 const fn at_depth(z: i16) -> [[i16; 3]; 3] {
@@ -35,7 +35,7 @@ const fn mesh(positions: &[[i16; 3]]) -> Mesh<'_> {
     }
 }
 
-fn coloured(positions: &[[i16; 3]], colour: [u8; 3]) -> Draw<'_, 'static> {
+pub(super) fn coloured(positions: &[[i16; 3]], colour: [u8; 3]) -> Draw<'_, 'static> {
     Draw {
         colour,
         ..Draw::new(mesh(positions))
@@ -55,34 +55,39 @@ fn camera(distance: f32) -> Camera {
 }
 
 /// Memory of scenes.
-struct Rooms {
+pub(super) struct Rooms {
     vertices: Vec<Vertex>,
     objects: Vec<Object>,
     bins: Vec<u16>,
     draws: Vec<DrawState<'static>>,
+    pub(super) places: Vec<TexturePlace>,
 }
 
 impl Rooms {
-    fn new(vertices: usize, draws: usize) -> Self {
+    pub(super) fn new(vertices: usize, draws: usize) -> Self {
         Self {
             vertices: std::vec![Vertex::EMPTY; vertices],
             objects: std::vec![Object::EMPTY; 40],
             bins: std::vec![0; SIDE.into()],
             draws: std::vec![DrawState::EMPTY; draws],
+            places: Vec::new(),
+        }
+    }
+
+    /// All of it.
+    pub(super) fn memory(&mut self) -> Memory<'_, 'static> {
+        Memory {
+            vertices: &mut self.vertices,
+            places: &mut self.places,
+            objects: &mut self.objects,
+            bins: &mut self.bins,
+            draws: &mut self.draws,
         }
     }
 
     /// A scene for as many columns, and one line or a square.
-    fn scene<L: Look>(&mut self, width: u16, height: u16) -> Scene<'_, 'static, L> {
-        let places: &mut [TexturePlace] = &mut [];
-        let memory = Memory {
-            vertices: &mut self.vertices,
-            places,
-            objects: &mut self.objects,
-            bins: &mut self.bins,
-            draws: &mut self.draws,
-        };
-        let mut scene = Scene::new(Screen::new(width, height).unwrap(), memory);
+    pub(super) fn scene<L: Look>(&mut self, width: u16, height: u16) -> Scene<'_, 'static, L> {
+        let mut scene = Scene::new(Screen::new(width, height).unwrap(), self.memory());
         scene.begin(&camera(2.0)).unwrap();
         scene
     }
