@@ -69,9 +69,8 @@ impl<W: Copy + PartialEq> Sprite<'_, W> {
         let below = &mut below[..count];
         match self.pixels {
             Pixels::Colour(word) => match self.ink {
-                Ink::Opaque => F::fill(below, word),
                 Ink::Keyed(key) if key == word => {}
-                Ink::Keyed(_) => F::fill(below, word),
+                Ink::Opaque | Ink::Keyed(_) => F::fill(below, word),
                 Ink::Additive => below
                     .iter_mut()
                     .for_each(|pixel| *pixel = F::add(*pixel, word)),

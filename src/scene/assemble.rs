@@ -12,8 +12,8 @@ use super::pass::{
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Vertex,
-    next_change,
+    Application, Draw, DrawError, DrawState, Full, Master, NONE, ORIGIN, Object, Scene, Shading,
+    Vertex, next_change,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use crate::num::rolled;
@@ -164,7 +164,11 @@ impl<'t, L> Scene<'_, 't, L> {
     pub(super) fn lose_call(&mut self, triangles: u32) -> DrawError {
         self.assembled.triangles += triangles;
         self.assembled.dropped += triangles;
-        DrawError::no_draws(triangles)
+        DrawError::Full {
+            memory: Full::Draws,
+            triangles,
+            first_face: 0,
+        }
     }
 
     /// Counts the triangles of a draw call; an error where some found no room.

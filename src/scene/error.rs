@@ -109,17 +109,6 @@ pub enum DrawError {
     },
 }
 
-impl DrawError {
-    /// A call of so many triangles found no room for its state.
-    pub(super) const fn no_draws(triangles: u32) -> Self {
-        Self::Full {
-            memory: Full::Draws,
-            triangles,
-            first_face: 0,
-        }
-    }
-}
-
 impl fmt::Display for DrawError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

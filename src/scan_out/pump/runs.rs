@@ -230,15 +230,10 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         }
         let to = words(self.packed);
         for row in 0..usize::from(run.height) {
-            let at = from + row * width;
-            let range = at..at + usize::from(run.width);
-            let to = to + row * usize::from(run.width);
+            let (at, run_width) = (from + row * width, usize::from(run.width));
             // Rows go towards the front, the first first, so none is overwritten before it has moved.
-            let buffer = self.pump.filling.as_mut().map(LineBuf::pixels);
-            match buffer {
-                Some(words) if range.end <= words.len() => words.copy_within(range, to),
-                _ => return Err(ScanError::BufferLost { line: run.y }),
-            }
+            let words = part::<D>(&mut self.pump.filling, 0..at + run_width, run.y)?;
+            words.copy_within(at.., to + row * run_width);
         }
         if self.packed.height == 0 {
             self.packed = run;
