@@ -239,8 +239,10 @@ fn a_buffer_that_comes_back_short_ends_a_frame_of_runs() {
         matches!(error, ScanError::BufferTooShort { have: 5, .. }),
         "{error:?}"
     );
-    assert_eq!(frame.line_done(), Err(ScanError::OutOfTurn { line: 12 }));
-    assert_eq!(frame.line().err(), Some(ScanError::OutOfTurn { line: 12 }));
+    let over = Some(ScanError::OutOfTurn { line: lines });
+    assert_eq!(frame.line_done().err(), over);
+    assert_eq!(frame.line().err(), over);
+    assert_eq!(frame.finish().err(), over);
     assert!(!pump.sink().open, "the rectangle is closed");
     let narrow = Window { width: 5, ..window };
     pump.begin(narrow, 1).unwrap();

@@ -36,19 +36,14 @@ fn joined<const SWAPPED: bool>(sum: u32) -> u16 {
     (two | two >> 16) as u16
 }
 
-/// Sums of fields in 16 parts in halves, rounded.
-#[inline(always)]
-fn halves<const SWAPPED: bool>(sum: u32) -> u32 {
-    let [fields, half] = const { fields(SWAPPED) };
-    (sum.wrapping_add(half >> 2) >> 3) & (fields << 1 | fields)
-}
-
-/// The square between the middles of four texels: its upper and lower side, as sums of fields in 16 parts.
+/// The square between the middles of four texels, as sums of fields in 32 parts.
 ///
-/// What lies on a side is rounded to halves of a step, and between both sides to steps: 3/4 of a step off at most.
+/// The product of both weights is rounded to one of these: a 64th of what both diagonals differ by.
 struct Square<const SWAPPED: bool> {
-    first: [u32; 2],
-    across: [u32; 2],
+    first: u32,
+    across: u32,
+    below: u32,
+    turn: u32,
 }
 
 impl<const SWAPPED: bool> Square<SWAPPED> {
@@ -56,21 +51,22 @@ impl<const SWAPPED: bool> Square<SWAPPED> {
     fn of(four: [u16; 4]) -> Self {
         // Modulo 2^32 no field of the sum is lost, whatever the differences borrow from each other.
         let [a, b, c, d] = four.map(apart::<SWAPPED>);
+        let (across, below) = (b.wrapping_sub(a), c.wrapping_sub(a));
         Self {
-            first: [a << 4, c << 4],
-            across: [b.wrapping_sub(a), d.wrapping_sub(c)],
+            first: a << 5,
+            across: across << 1,
+            below: below << 1,
+            turn: d.wrapping_sub(b).wrapping_sub(below),
         }
     }
 
     /// The right ones with `right` parts of 16, the lower ones with `down`.
     #[inline(always)]
     fn at(&self, right: u32, down: u32) -> u16 {
-        let [upper, lower] = [0, 1].map(|i| {
-            let sum = self.across[i].wrapping_mul(right);
-            halves::<SWAPPED>(sum.wrapping_add(self.first[i]))
-        });
-        let below = lower.wrapping_sub(upper).wrapping_mul(down);
-        joined::<SWAPPED>((upper << 4).wrapping_add(below))
+        let both = self.turn.wrapping_mul((right * down + 4) >> 3);
+        let one = self.across.wrapping_mul(right).wrapping_add(self.first);
+        let two = self.below.wrapping_mul(down).wrapping_add(one);
+        joined::<SWAPPED>(two.wrapping_add(both))
     }
 }
 
@@ -338,12 +334,11 @@ mod tests {
         [word >> 11, word >> 5 & 63, word & 31].map(f64::from)
     }
 
-    /// Kills: products of both weights that are rounded before they weigh (two and a half steps), and fields that reach
-    /// into each other.
+    /// Kills: weights that are rounded more than the product of both is, and fields that reach into each other.
     #[test]
-    fn means_are_three_quarters_of_a_step_from_exact() {
+    fn means_are_as_near_to_exact_as_is_said() {
         let mut rng = Rng(7);
-        let mut worst = [0.0f64; 3];
+        let mut worst = 0.0f64;
         for round in 0..3_000 {
             // Of the first, each field is none or all.
             let mut texel = || match round {
@@ -358,16 +353,17 @@ mod tests {
                 assert_eq!(swapped.swap_bytes(), got, "{four:x?} {right} {down}");
                 let [r, d] = [right, down].map(|part| f64::from(part) / 16.0);
                 let weights = [(1.0 - r) * (1.0 - d), r * (1.0 - d), (1.0 - r) * d, r * d];
-                for (channel, worst) in worst.iter_mut().enumerate() {
+                for channel in 0..3 {
                     let texels = four.map(|texel| steps(texel)[channel]);
                     let mean: f64 = texels.iter().zip(weights).map(|(t, w)| t * w).sum();
-                    *worst = worst.max((steps(got)[channel] - mean).abs());
+                    let [a, b, c, d] = texels;
+                    let off = (steps(got)[channel] - mean).abs();
+                    let bound = 0.5 + (a + d - b - c).abs() / 64.0;
+                    assert!(off <= bound, "{off} of {bound}: {texels:?} {right} {down}");
+                    worst = worst.max(off);
                 }
             }
         }
-        assert!(
-            worst.iter().all(|worst| (0.5..=0.75).contains(worst)),
-            "{worst:?}"
-        );
+        assert!(worst > 2.0, "{worst}");
     }
 }

@@ -29,8 +29,8 @@ impl Sampling {
         }),
     };
 
-    /// The weighted mean of the four nearest texels of the level that fits, with 4 bits of weight each way: 3/4 of a step
-    /// of the format off at most.
+    /// The weighted mean of the four nearest texels of the level that fits, with 4 bits of weight each way: off by half a
+    /// step of the format, and by 1/64 of the difference between the sums of opposite texels.
     ///
     /// A pixel takes 94 instructions on a Cortex-M4 and 135 on a Cortex-M0+ where texels are words that repeat, in runs
     /// of 5 pixels, all in; 34 and 49 where it lies between the same four texels as the one before. Of texels that are

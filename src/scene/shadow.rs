@@ -84,7 +84,8 @@ impl<'t, L> Scene<'_, 't, L> {
     ///
     /// # Errors
     /// As [`draw`](Scene::draw), and [`DrawError::Shadow`] when the memory lent for the volume is too short. What was
-    /// kept of a volume that found no room is wrong.
+    /// kept of a volume that found no room is wrong; of no triangles where it is there, and has no room for what closes
+    /// it at the near plane.
     pub fn draw_shadow<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
@@ -167,11 +168,11 @@ impl<'t, L> Scene<'_, 't, L> {
             return Ok(());
         }
         let state = DrawState::new(self.objects.len() as u16, cap, self.master);
-        // How many triangles would close it nobody knows yet; they count as one.
+        // The volume's triangles are counted already.
         if self.draws.push(state).is_none() {
-            return Err(self.lose_call(1));
+            return Err(self.lose_call(0));
         }
-        self.push_back(1)?;
+        self.push_back(0)?;
         let mut pass = Pass::dark(view, &self.scale, self.vertices.len());
         let mut submitted = 0;
         for is_back in [false, true] {

@@ -109,7 +109,6 @@ fn triangles_at_the_near_plane_are_counted() {
         let drawn = cast(&mut scene);
         let counts = scene.assembled();
         assert_eq!(drawn.is_ok(), states >= 4);
-        assert_eq!(drawn.is_err(), counts.dropped > 0, "{states}: {drawn:?}");
         if drawn.is_ok() {
             let seen = counts.triangles - counts.culled;
             assert!(counts.culled > 0 && scene.objects() >= seen as usize);

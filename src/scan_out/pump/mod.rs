@@ -110,7 +110,7 @@ impl<D: ScanoutDma> Pump<D> {
         }
     }
 
-    /// Bounds each wait: a transfer that is still busy after so many polls is reported as [`ScanError::Timeout`].
+    /// Bounds each wait: a transfer that more than so many polls find busy is reported as [`ScanError::Timeout`].
     ///
     /// `None`, which is how it starts, waits for ever, for systems with a watchdog. How long a poll takes is the
     /// sink's affair, so the bound is best set to some hundred times the usual [`ScanStats::stall_polls`] of a band.
@@ -401,10 +401,10 @@ impl<D: ScanoutDma> Pump<D> {
             match self.dma.poll() {
                 Poll::Pending => {
                     self.stats.stall_polls = self.stats.stall_polls.saturating_add(1);
-                    polls = polls.saturating_add(1);
                     if self.max_polls.is_some_and(|max| polls >= max) {
                         return Err(ScanError::Timeout { line });
                     }
+                    polls = polls.saturating_add(1);
                     core::hint::spin_loop();
                 }
                 Poll::Ready(Ok(Some(buf))) => {

@@ -43,7 +43,7 @@ pub enum ScanError<E> {
         /// The first line that is missing.
         line: u16,
     },
-    /// The sink did not give a buffer back within `max_polls` polls. The next `begin` asks for it again.
+    /// More than `max_polls` polls found the sink busy, and no buffer home. The next `begin` asks for it again.
     Timeout {
         /// The first line of the transfer that hangs.
         line: u16,
