@@ -26,7 +26,7 @@
 //! # use scanbeam::{look::Gouraud, pixel::{PixelFormat, Rgb565Be}, *};
 //! type Look = Gouraud<Rgb565Be>; // smooth colours, 16-bit pixels for SPI
 //!
-//! // `Box` is for the host. Firmware has no heap: it handles each error where it comes from.
+//! // `Box` is for the host. Firmware has no heap: it handles errors where they come from.
 //! fn frame<D: ScanoutDma<Buf: LineBuf<Word = u16>>>(
 //!     model: Mesh,
 //!     scene: &mut Scene<'_, 'static, Look>, // Scene::new(screen, slow memory)
