@@ -26,10 +26,10 @@ pub(super) fn begun_of<T>(slot: &CacheSlot<T>) -> u8 {
 }
 
 impl Flags {
-    const NO_DEPTH: u8 = 1 << 5;
-    const WAY: u32 = 2;
-    const VALUES: u8 = 1 << 7;
-    const DEEP: u8 = 1 << 6;
+    const VALUES: u8 = 1 << 2;
+    const WAY: u32 = 3;
+    const NO_DEPTH: u8 = 1 << 6;
+    const DEEP: u8 = 1 << 7;
 
     #[inline(always)]
     pub(super) fn new(fill: Fill, way: Way) -> Self {
