@@ -6,7 +6,7 @@
 //!
 //! A numerator is two sums of products of 16 bits, so that no product has 64 bits.
 
-use super::product::{leading_zeros, mul_high};
+use super::product::{few_leading_zeros, leading_zeros, mul_high};
 use super::{recip, rounded};
 
 /// What all planes of a triangle share: the ways from its first corner to the others, and the reciprocal of its area.
@@ -41,8 +41,8 @@ impl InverseArea {
             ways,
             recip: recip((area as u32) << (up & 31)).min(i32::MAX as u32) as i32,
             up,
-            // 40 less those of the box in half pixels, which are taken as 9 at least.
-            most: 8 + leading_zeros((a | b | c | d) as u32 >> 2 | 1 << 8),
+            // 40 less those of the box in half pixels, which are taken as 9 at least, and are 13 at most.
+            most: 26 + few_leading_zeros(((a | b | c | d) as u32 >> 2 | 1 << 8) << 18),
         })
     }
 

@@ -4,7 +4,7 @@
 //! side times the reciprocal of the area, cut to what leaves room for rises of 11 bits.
 
 use super::edge::{across, down};
-use crate::num::{SHORT, leading_zeros, leading_zeros_here, mul_high, recip_16};
+use crate::num::{SHORT, leading_zeros_here, mul_high, recip_16};
 use crate::scene::ORIGIN;
 
 /// Sides times the reciprocal of the doubled area, `r 2^(up - 47)`, and the first corner's place.
@@ -100,7 +100,8 @@ impl Shares {
         // 1 to 16, as the area is.
         let left = self.up.wrapping_sub(15) & 31;
         let most = (gx ^ gx >> 31) | (gy ^ gy >> 31);
-        if leading_zeros(most as u32) + more < left + 2 {
+        // Below 2^27, as they are shifted.
+        if most >> 30u32.wrapping_sub(left).wrapping_add(more).min(31) != 0 {
             return None;
         }
         let [dx, dy] = if is_small {
