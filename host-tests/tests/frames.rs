@@ -1,10 +1,11 @@
 //! What the small frames that the firmware draws have to show, to compare anything (X1, X2).
 
-use host_tests::frames::{bytes_in_format, values_sent};
+use host_tests::frames::{Drawn, bytes_in_format, shot_frame, suite_frame, values_sent};
 use host_tests::say;
 use scanbeam::event::Event;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
-use scenes::{InFormat, VALUES, Values};
+use scanbeam::scene::Shading;
+use scenes::{InFormat, Shot, Suite, VALUES, Values};
 use std::collections::BTreeSet;
 
 /// What few draw calls have: each frame has it, whatever the number of slots.
@@ -111,4 +112,28 @@ fn formats_show_the_same_scenes() {
     say!("grey is up to {most} levels off that of RGB565");
     let levels: BTreeSet<_> = grey.iter().collect();
     assert!(levels.len() > 50 && most <= 8, "{} levels", levels.len());
+}
+
+/// What an SPI panel gets has the colours of numbers, which flat faces fill in pairs, and those of bytes but for what five
+/// and six bits lose.
+///
+/// Kills: columns of long runs of numbers that nobody writes; thin triangles that are coloured as planes of bytes.
+#[test]
+fn an_spi_panel_gets_what_numbers_and_bytes_have() {
+    let sent = |drawn: Drawn| drawn.words.into_iter().map(Rgb565Be::to_rgb8);
+    let faces = sent(suite_frame(Suite::NearToFar).unwrap());
+    let numbers = levels_in(InFormat::SuiteNumbers(Suite::NearToFar), |word| {
+        Rgb565::to_rgb8(u16::from_ne_bytes(word))
+    });
+    assert!(faces.eq(numbers));
+
+    let slivers = sent(shot_frame(Shot::Slivers, Shading::Smooth).unwrap());
+    let bytes = levels_in(InFormat::Slivers, Rgb888::to_rgb8);
+    let colours: BTreeSet<_> = bytes.iter().collect();
+    let differences = slivers
+        .zip(&bytes)
+        .flat_map(|(a, b)| [0, 1, 2].map(|i| a[i].abs_diff(b[i])));
+    let most = differences.max();
+    say!("{} colours, up to {most:?} levels apart", colours.len());
+    assert!(colours.len() > 500 && most <= Some(8), "{most:?}");
 }

@@ -3,10 +3,12 @@
 //! | name | what it shows |
 //! |---|---|
 //! | `a_888`, `b_888`, `f_888` | smooth colours, textures in light and in perspective, in bytes |
+//! | `slivers_888` | triangles too thin for planes, in bytes |
 //! | `lit_888` | cubes and a ball that are lit at each pixel, behind a pane, in bytes |
 //! | `lit_xrgb` | the same, in words of 32 bits |
 //! | `smooth_grey` | a ball, flat faces and a pane of grey |
 //! | `smooth_565` | the same, in numbers of 16 bits |
+//! | `c_565` | flat faces that fill the picture, in numbers of 16 bits |
 
 use crate::suite::texture;
 use crate::{
@@ -22,6 +24,10 @@ use scanbeam::{Affine, Light, Mesh, Scene};
 pub enum InFormat {
     /// A scene of the suite in bytes.
     Suite(Suite),
+    /// A scene of the suite without textures in numbers.
+    SuiteNumbers(Suite),
+    /// Triangles that are too thin for planes, in bytes.
+    Slivers,
     /// Light at each pixel, in bytes.
     LitBytes,
     /// The same in words.
@@ -33,14 +39,16 @@ pub enum InFormat {
 }
 
 /// Their names, and which scene each is.
-pub const IN_FORMATS: [(&str, InFormat); 7] = [
+pub const IN_FORMATS: [(&str, InFormat); 9] = [
     ("a_888", InFormat::Suite(Suite::A)),
     ("b_888", InFormat::Suite(Suite::B)),
     ("f_888", InFormat::Suite(Suite::F)),
+    ("slivers_888", InFormat::Slivers),
     ("lit_888", InFormat::LitBytes),
     ("lit_xrgb", InFormat::LitWords),
     ("smooth_grey", InFormat::Grey),
     ("smooth_565", InFormat::Numbers),
+    ("c_565", InFormat::SuiteNumbers(Suite::NearToFar)),
 ];
 
 /// The textures of scenes B and F as numbers, which such looks take.

@@ -215,6 +215,15 @@ impl Sent<'_, '_> {
             InFormat::Suite(suite) => {
                 self.suite_in_format(suite, scene, lines.renderer(caches.true_colour));
             }
+            InFormat::SuiteNumbers(suite) => {
+                self.suite_in_format(suite, scene, lines.renderer(caches.numbers));
+            }
+            InFormat::Slivers => {
+                let (renderer, shot) = (lines.renderer(caches.true_colour), Shot::Slivers);
+                self.built(scene, renderer, shot.background(), &|scene| {
+                    shot.build(scene)
+                });
+            }
             InFormat::LitBytes => self.lit(scene, lines.renderer(caches.lit_bytes)),
             InFormat::LitWords => self.lit(scene, lines.renderer(caches.lit_words)),
             InFormat::Grey => self.smooth_in_format(scene, lines.renderer(caches.grey)),
@@ -222,23 +231,33 @@ impl Sent<'_, '_> {
         }
     }
 
-    #[inline(never)]
     fn suite_in_format<L: Look>(
         &mut self,
         suite: Suite,
         rooms: &mut SceneRooms,
         renderer: Renderer<'_, L>,
     ) {
-        let mut scene = rooms.scene();
-        build_in_format(suite, &mut scene).expect(LARGE);
-        self.pixels(&scene, renderer, suite.background());
+        let build: Build<'_, L> = &|scene| build_in_format(suite, scene);
+        self.built(rooms, renderer, suite.background(), build);
     }
 
-    #[inline(never)]
     fn smooth_in_format<L: Look>(&mut self, rooms: &mut SceneRooms, renderer: Renderer<'_, L>) {
+        let background = Suite::Teapot.background();
+        self.built(rooms, renderer, background, &|scene| build_smooth(scene));
+    }
+
+    /// A scene, and all lines of it as they are drawn.
+    #[inline(never)]
+    fn built<L: Look>(
+        &mut self,
+        rooms: &mut SceneRooms,
+        renderer: Renderer<'_, L>,
+        background: [u8; 3],
+        build: Build<'_, L>,
+    ) {
         let mut scene = rooms.scene();
-        build_smooth(&mut scene).expect(LARGE);
-        self.pixels(&scene, renderer, Suite::Teapot.background());
+        build(&mut scene).expect(LARGE);
+        self.pixels(&scene, renderer, background);
     }
 
     /// With light at each pixel, which lives as long as the draw states.

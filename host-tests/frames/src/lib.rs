@@ -217,6 +217,13 @@ pub fn bytes_in_format(format: InFormat) -> Result<Vec<u8>, Box<dyn Error>> {
             suite_bytes::<TrueColourTexturedLook>(suite)
         }
         InFormat::Suite(suite) => suite_bytes::<TrueColourLook>(suite),
+        InFormat::SuiteNumbers(suite) => suite_bytes::<NumbersLook>(suite),
+        InFormat::Slivers => {
+            let shot = Shot::Slivers;
+            bytes_by::<TrueColourLook>(shot.background(), |scene| {
+                said(shot.name(), shot.build(scene))
+            })
+        }
         InFormat::LitBytes => lit_bytes::<LitBytesLook>(),
         InFormat::LitWords => lit_bytes::<LitWordsLook>(),
         InFormat::Grey => smooth_bytes::<GreyLook>(),
