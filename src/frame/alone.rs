@@ -3,18 +3,16 @@
 use super::guests::{Stray, Walk};
 use super::renderer::Renderer;
 use super::slot::Flags;
-use super::spans::{Drawn, Line, Span, colour};
-use super::thin::depth_plane;
+use super::spans::{Drawn, Line, colour};
 use crate::active::CacheUse;
 use crate::look::{Fill, Look, Primitive};
-use crate::span::{Triangle, Way};
+use crate::span::Way;
 
 /// A triangle without a slot, set up for one line.
 pub(super) struct Alone<P> {
     planes: P,
     flags: Flags,
     object: u16,
-    pub(super) span: Span,
 }
 
 impl<P> Alone<P> {
@@ -25,24 +23,14 @@ impl<P> Alone<P> {
             planes,
             flags: Flags::new(Fill::Plain, Way::PLAIN),
             object: 0,
-            span: Span { start: 0, end: 0 },
         }
     }
 
     /// Becomes a triangle whose colours are not asked for.
     #[inline(always)]
     pub(super) fn darken(&mut self, stray: &Stray<'_>) {
-        (self.object, self.span) = (stray.object, stray.span);
-        // Its columns are known, and its depth is not.
-        self.flags = Flags::new(Fill::Plain, Way::PLAIN).with_depth(true);
-    }
-
-    /// The plane of depth of the triangle that it is.
-    #[inline(never)]
-    pub(super) fn find_depth(&mut self, triangle: &Triangle<'_>) -> [u32; 3] {
-        let plane = depth_plane(triangle);
-        self.flags = self.flags.with_depth(plane.is_none());
-        plane.unwrap_or_default()
+        self.object = stray.object;
+        self.flags = Flags::new(Fill::Plain, Way::PLAIN);
     }
 
     /// As it is drawn.
@@ -94,7 +82,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 return false;
             }
             set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
-            colour::<L>(alone.drawn(), alone.span, out);
+            colour::<L>(alone.drawn(), stray.span, out);
             misses += 1;
         }
         self.counts.misses += misses;

@@ -321,7 +321,17 @@ impl<'v> Stray<'v> {
         if !out.deep {
             return Slope::of_place(out.view, self.object);
         }
-        match depth_plane(&self.triangle) {
+        self.slope_by(depth_plane(&self.triangle), out)
+    }
+
+    /// The same of a plane of depth, if it has one.
+    #[inline(always)]
+    pub(super) fn slope_by<L: Look>(
+        &self,
+        plane: Option<[u32; 3]>,
+        out: &Line<'_, '_, L>,
+    ) -> Slope {
+        match plane {
             Some(plane) => Slope::of_plane(plane, out.number),
             None => thin_slope(self.object, self.span, out.view, out.number),
         }

@@ -3,8 +3,8 @@
 use super::near::place_of;
 use super::renderer::View;
 use super::slot::{Active, Flags};
-use super::spans::{Line, Span, thin_depth};
-use super::thin::depth_plane;
+use super::spans::{Line, Span};
+use super::thin::{MARGIN, depth_plane, thin_span};
 use crate::active::CacheSlot;
 use crate::look::Look;
 use crate::num::rolled;
@@ -169,14 +169,17 @@ pub(super) fn slope_of<L: Look>(
     Slope::of_plane(slot.item.depth, out.number)
 }
 
+/// The depth of a triangle that is too thin for a plane, along a span.
 #[cold]
 #[inline(never)]
 pub(super) fn thin_slope(object: u16, span: Span, view: &View<'_>, line: u32) -> Slope {
-    let [first, step] = thin_depth(object, span, view, line);
-    Slope {
-        at: first.wrapping_sub(step.wrapping_mul(span.start)),
-        step,
-    }
+    let Some(triangle) = view.triangle_of(object) else {
+        return Slope::even(0);
+    };
+    let ends = thin_span(&triangle, span, line);
+    let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
+    let at = at.wrapping_add(MARGIN);
+    Slope { at, step }
 }
 
 /// What is in a slot as a rival.

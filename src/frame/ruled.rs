@@ -6,8 +6,7 @@
 
 use super::alpha::Surface;
 use super::renderer::View;
-use super::rival::Slope;
-use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
+use super::spans::{Drawn, Known, Line, Span, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::{few_leading_zeros, rolled};
 use crate::pixel::{blend, blend_each};
@@ -41,13 +40,9 @@ pub(super) fn draw_ruled<L: Look>(
     out: &mut Line<'_, '_, L>,
     mut known: Option<Known<'_>>,
 ) {
-    let Ruled { drawn, span, state } = ruled;
+    let Ruled { span, state, .. } = ruled;
     let mut others = None;
     let ink = ink_of::<L>(ruled, &mut others, out);
-    let depth = match &known {
-        Some(known) => depth_on_line::<L>(drawn, known.plane, span, out),
-        None => [0; 2],
-    };
     let part = span.within(part);
     for Range { start, end } in state.cut(out.number, part.start..part.end) {
         let run = Span { start, end };
@@ -55,11 +50,11 @@ pub(super) fn draw_ruled<L: Look>(
             continue;
         }
         if state.is_by_pixel() {
-            lay_by_pixel::<L>(&ink, run, state, depth, out, &mut known);
+            lay_by_pixel::<L>(&ink, run, state, out, &mut known);
             continue;
         }
         match &mut known {
-            Some(known) => compare(run, state, depth, known, &mut |seen| {
+            Some(known) => compare(run, state, known, &mut |seen| {
                 lay::<L>(&ink, seen, out);
             }),
             None => lay::<L>(&ink, run, out),
@@ -127,22 +122,6 @@ fn fill_of<L: Look>(
     fill
 }
 
-/// The depth of a span at the picture's first column, and its step.
-#[inline(always)]
-pub(super) fn depth_on_line<L: Look>(
-    drawn: Drawn<'_, L::Planes>,
-    plane: [u32; 3],
-    span: Span,
-    out: &Line<'_, '_, L>,
-) -> [u32; 2] {
-    if drawn.flags.lacks_depth() {
-        let [at, step] = thin_depth(drawn.object, span, out.view, out.number);
-        return [at.wrapping_sub(step.wrapping_mul(span.start)), step];
-    }
-    let Slope { at, step } = Slope::of_plane(plane, out.number);
-    [at, step]
-}
-
 /// The depths of a run; what nobody has written is farthest away.
 #[inline(never)]
 pub(super) fn cells_of<'a>(run: Span, known: &'a mut Known<'_>) -> Option<&'a mut [u32]> {
@@ -167,27 +146,21 @@ fn written_cells<'a>(run: Span, known: &'a mut Known<'_>) -> Option<(&'a mut [u3
 
 /// Calls `f` with each run of pixels that pass the test.
 #[inline(never)]
-fn compare(
-    run: Span,
-    state: &DrawState<'_>,
-    [at, step]: [u32; 2],
-    known: &mut Known<'_>,
-    f: &mut dyn FnMut(Span),
-) {
+fn compare(run: Span, state: &DrawState<'_>, known: &mut Known<'_>, f: &mut dyn FnMut(Span)) {
+    let slope = known.slope;
     let Some((cells, is_new)) = written_cells(run, known) else {
         return;
     };
     if is_new {
         if state.depth == DepthTest::HIDES {
-            keep(cells, at.wrapping_add(step.wrapping_mul(run.start)), step);
+            keep(cells, slope.at(run.start), slope.step);
             return f(run);
         }
         cells.fill(0);
     }
     let firsts = (run.start..).step_by(MOST_TESTED);
     for (cells, first) in cells.chunks_mut(MOST_TESTED).zip(firsts) {
-        let depth = at.wrapping_add(step.wrapping_mul(first));
-        let seen = test(cells, depth, step, state.depth);
+        let seen = test(cells, slope.at(first), slope.step, state.depth);
         each_run(seen, first, f);
     }
 }
@@ -217,7 +190,6 @@ fn lay_by_pixel<L: Look>(
     ink: &Ink<'_, L::Planes>,
     run: Span,
     state: &DrawState<'_>,
-    depth: [u32; 2],
     out: &mut Line<'_, '_, L>,
     known: &mut Option<Known<'_>>,
 ) {
@@ -269,7 +241,7 @@ fn lay_by_pixel<L: Look>(
         // Of a shorter run the lower bits say nothing.
         let opaque = opaque & u32::MAX << (32 - pixels);
         each_run(opaque, from, &mut |run| match known {
-            Some(known) => compare(run, state, depth, known, &mut put),
+            Some(known) => compare(run, state, known, &mut put),
             None => put(run),
         });
         start = end;

@@ -7,11 +7,12 @@
 use super::alone::{Alone, set_up_stray};
 use super::near::insert;
 use super::renderer::{Renderer, View};
-use super::rival::deepen;
-use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
+use super::rival::{deepen, slope_of};
+use super::ruled::{Ruled, cells_of, draw_ruled, each_run};
 use super::spans::{Drawn, Known, Line, Span};
 use super::spilled::{Found, Spilled};
 use super::tally::{cells_at, each_part, has_texels, opaque_of};
+use super::thin::depth_plane;
 use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::{DepthFunction, DrawState, Role};
@@ -72,8 +73,7 @@ pub(super) fn count_shadowed<L: Look>(
     counts: &[u8],
     out: &Line<'_, '_, L>,
 ) {
-    let Ruled { drawn, span, state } = ruled;
-    let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
+    let Ruled { state, .. } = ruled;
     let (how, mut pixels) = (receives(state), SpanPixels::default());
     let any = Receives {
         passes: DepthFunction::ALWAYS,
@@ -82,7 +82,7 @@ pub(super) fn count_shadowed<L: Look>(
     each_part(ruled, out, &mut |first, part| {
         pixels.all += part;
         let cells = cells_at(known, first);
-        let depth = [at.wrapping_add(step.wrapping_mul(first)), step];
+        let depth = [known.slope.at(first), known.slope.step];
         let seen = |how: Receives| {
             let mut copy = [0; MOST_TESTED];
             let counts = counts.get(first as usize..(first + part) as usize);
@@ -122,19 +122,21 @@ fn inexact(step: u32, down: u32) -> u32 {
     right + down + 256
 }
 
-/// Counts a span of a volume, or draws one that is seen again, where depth and counts say so.
+/// Counts a span of a volume, or draws one that is seen again, where depth and counts say so; `down` is the step of depth
+/// to the line below.
 #[inline(never)]
 fn take<L: Look>(
     ruled: &Ruled<'_, L::Planes>,
     mut known: Known<'_>,
+    down: u32,
     counts: &mut [u8],
     out: &mut Line<'_, '_, L>,
 ) {
-    let &Ruled { drawn, span, state } = ruled;
-    let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
+    let &Ruled { span, state, .. } = ruled;
+    let (slope, step) = (known.slope, known.slope.step);
     let how = receives(state);
     let passes = how.passes;
-    let inexact = inexact(step, known.plane[2]);
+    let inexact = inexact(step, down);
     for Range { start, end } in state.cut(out.number, span.start..span.end) {
         let run = Span { start, end };
         if start >= end {
@@ -144,8 +146,7 @@ fn take<L: Look>(
         let (Some(counts), Some(cells)) = (counts, cells_of(run, &mut known)) else {
             return;
         };
-        let depth_at = |column: u32| at.wrapping_add(step.wrapping_mul(column));
-        let (first, last) = (depth_at(run.start), depth_at(run.end - 1));
+        let (first, last) = (slope.at(run.start), slope.at(run.end - 1));
         // What a face may be off by is inside.
         let (change, first) = match state.role() {
             Role::Front(_) => (u8::MAX, first.wrapping_add(inexact)),
@@ -160,7 +161,7 @@ fn take<L: Look>(
             .chunks_mut(MOST_TESTED)
             .zip(cells.chunks(MOST_TESTED));
         for ((counts, cells), first) in parts.zip((run.start..).step_by(MOST_TESTED)) {
-            let seen = receive(counts, cells, [depth_at(first), step], how);
+            let seen = receive(counts, cells, [slope.at(first), step], how);
             each_run(seen, first, &mut |part| {
                 draw_ruled::<L>(*ruled, part, out, None);
             });
@@ -289,13 +290,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = out.view.state_of(slot) else {
             return;
         };
-        let known = Known::new(slot.item.depth, self.depth, &mut self.written);
         let (drawn, span) = (Drawn::of(slot), Span::of(span));
+        let slope = slope_of::<L>(slot, span, out);
+        let known = Known::new(slope, self.depth, &mut self.written);
         let ruled = Ruled { drawn, span, state };
         if let Some(counter) = &self.counter {
             (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);
         }
-        take::<L>(&ruled, known, self.volumes, out);
+        let [.., down] = slot.item.depth;
+        take::<L>(&ruled, known, down, self.volumes, out);
     }
 
     /// Takes the span of what has no slot, which is set up in `alone`.
@@ -313,13 +316,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             Role::Front(_) | Role::Back(_) => alone.darken(&stray),
             _ => set_up_stray::<L>(&stray, alone, &mut self.counts, out),
         }
-        let plane = alone.find_depth(&stray.triangle);
-        let known = Known::new(plane, self.depth, &mut self.written);
-        let (drawn, span) = (alone.drawn(), alone.span);
+        let plane = depth_plane(&stray.triangle);
+        let slope = stray.slope_by(plane, out);
+        let known = Known::new(slope, self.depth, &mut self.written);
+        let (drawn, span) = (alone.drawn(), stray.span);
         let ruled = Ruled { drawn, span, state };
         if let Some(counter) = &self.counter {
             (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);
         }
-        take::<L>(&ruled, known, self.volumes, out);
+        let [.., down] = plane.unwrap_or_default();
+        take::<L>(&ruled, known, down, self.volumes, out);
     }
 }

@@ -1,8 +1,9 @@
 //! The pixels of a span.
 
 use super::renderer::{Dither, View};
+use super::rival::Slope;
 use super::slot::{Active, Flags};
-use super::thin::{MARGIN, thin_span};
+use super::thin::thin_span;
 use crate::active::CacheSlot;
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::visible::Mask;
@@ -29,17 +30,17 @@ pub(super) struct Span {
 
 /// The depth of a line, as far as it is known.
 pub(super) struct Known<'a> {
-    /// The plane of the triangle that is compared.
-    pub(super) plane: [u32; 3],
+    /// The depth of the triangle that is compared.
+    pub(super) slope: Slope,
     pub(super) cells: &'a mut [u32],
     pub(super) written: &'a mut Mask,
 }
 
 impl<'a> Known<'a> {
     #[inline(always)]
-    pub(super) fn new(plane: [u32; 3], cells: &'a mut [u32], written: &'a mut Mask) -> Self {
+    pub(super) fn new(slope: Slope, cells: &'a mut [u32], written: &'a mut Mask) -> Self {
         Self {
-            plane,
+            slope,
             cells,
             written,
         }
@@ -52,19 +53,6 @@ pub(super) struct Drawn<'a, P> {
     pub(super) planes: &'a P,
     pub(super) flags: Flags,
     pub(super) object: u16,
-}
-
-/// The depth of a thin triangle at a span's first pixel, and its step.
-#[cold]
-#[inline(never)]
-pub(super) fn thin_depth(object: u16, span: Span, view: &View<'_>, line: u32) -> [u32; 2] {
-    let Some(triangle) = view.triangle_of(object) else {
-        return [0; 2];
-    };
-    let ends = thin_span(&triangle, span, line);
-    let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
-    let first = at.wrapping_add(step.wrapping_mul(span.start));
-    [first.wrapping_add(MARGIN), step]
 }
 
 /// The planes of a thin triangle on the line of one of its spans.

@@ -7,8 +7,8 @@
 use super::alone::{Alone, set_up_stray};
 use super::guests::Stray;
 use super::renderer::Renderer;
-use super::rival::{Rival, rival_of};
-use super::ruled::{Ruled, depth_on_line, ink_of};
+use super::rival::{Rival, rival_of, slope_of};
+use super::ruled::{Ruled, ink_of};
 use super::shadow::count_shadowed;
 use super::slot::{Active, Flags};
 use super::spans::{Drawn, Known, Line, Span, columns_of};
@@ -177,7 +177,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 continue;
             };
             let (drawn, span) = (Drawn::of(slot), Span::of(span));
-            let known = Known::new(slot.item.depth, self.depth, &mut self.written);
+            let slope = slope_of::<L>(slot, span, out);
+            let known = Known::new(slope, self.depth, &mut self.written);
             let ruled = Ruled { drawn, span, state };
             count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
         }
@@ -199,9 +200,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         // What it takes to count is not counted.
         let mut alone = Alone::empty(L::EMPTY);
         set_up_stray::<L>(&stray, &mut alone, &mut CacheUse::default(), out);
-        let plane = alone.find_depth(&stray.triangle);
-        let (drawn, span) = (alone.drawn(), alone.span);
-        let known = Known::new(plane, self.depth, &mut self.written);
+        let (drawn, span) = (alone.drawn(), stray.span);
+        let known = Known::new(stray.slope::<L>(out), self.depth, &mut self.written);
         let ruled = Ruled { drawn, span, state };
         count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
     }
@@ -221,8 +221,7 @@ fn count_span<L: Look>(
     is_alone: bool,
     out: &Line<'_, '_, L>,
 ) {
-    let Ruled { drawn, span, state } = ruled;
-    let depth = known.map(|known| depth_on_line::<L>(drawn, known.plane, span, out));
+    let Ruled { drawn, state, .. } = ruled;
     let mut pixels = SpanPixels::default();
     // A slot without values is compared by no state of its own.
     let has_texels = has_texels::<L>(out.view.state(drawn.object));
@@ -235,15 +234,10 @@ fn count_span<L: Look>(
             all
         };
         let mut seen = asked;
-        if let (Some(known), Some([at, step])) = (known, depth) {
+        if let Some(known) = known {
             let mut cells = cells_at(known, first);
             let cells = cells.get_mut(..part as usize).unwrap_or_default();
-            seen &= test(
-                cells,
-                at.wrapping_add(step.wrapping_mul(first)),
-                step,
-                state.depth,
-            );
+            seen &= test(cells, known.slope.at(first), known.slope.step, state.depth);
             pixels.tested += asked.count_ones();
         }
         pixels.all += part;

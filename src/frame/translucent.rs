@@ -11,8 +11,8 @@
 
 use super::alone::{Alone, set_up_stray};
 use super::renderer::Renderer;
-use super::rival::{Key, Rival, Slope, deepen};
-use super::ruled::{Ruled, depth_on_line, draw_ruled};
+use super::rival::{Key, Rival, Slope, deepen, rival_of};
+use super::ruled::{Ruled, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
 use crate::look::Look;
 use crate::num::{bit, rolled, take_first};
@@ -254,46 +254,28 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         count
     }
 
-    /// Calls `f` with each pane of the line.
+    /// Fills a pile.
     #[inline(never)]
-    fn each_pane(&mut self, count: usize, out: &Line<'_, '_, L>, f: &mut dyn FnMut(Pane)) {
+    fn gather_panes(&mut self, pile: &mut Pile, count: usize, take: Take, out: &Line<'_, '_, L>) {
+        (pile.count, pile.is_short) = (0, false);
         for k in 0..count {
             let number = self.number_at(usize::from(self.nearest) + k);
             let Some((slot, span)) = self.cache.at(number) else {
                 return;
             };
-            let span = Span::of(span);
-            let [at, step] = depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out);
-            f(Pane {
-                rival: Rival {
-                    span,
-                    slope: Slope { at, step },
-                    object: slot.object,
-                },
-                slot: number as u16,
-            });
+            let rival = rival_of::<L>(slot, Span::of(span), out);
+            let slot = number as u16;
+            pile.add(Pane { rival, slot }, take);
         }
         let mut at = self.first_spilled();
         while let Some(found) = self.spilled_of(at, out.view, |state| state.is_translucent()) {
             if let Some(stray) = self.spilled_stray(found.at, out) {
-                f(Pane {
-                    rival: Rival {
-                        span: stray.span,
-                        slope: stray.slope::<L>(out),
-                        object: stray.object,
-                    },
-                    slot: NO_SLOT,
-                });
+                let rival = stray.rival(stray.slope::<L>(out));
+                let slot = NO_SLOT;
+                pile.add(Pane { rival, slot }, take);
             }
             at = self.after(found.at);
         }
-    }
-
-    /// Fills a pile.
-    #[inline(never)]
-    fn gather_panes(&mut self, pile: &mut Pile, count: usize, take: Take, out: &Line<'_, '_, L>) {
-        (pile.count, pile.is_short) = (0, false);
-        self.each_pane(count, out, &mut |pane| pile.add(pane, take));
     }
 
     /// Draws the panes of a window that a pile holds.
@@ -334,24 +316,27 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws some columns of a pane.
     #[inline(never)]
     fn draw_pane(&mut self, pane: &Pane, part: Span, out: &mut Line<'_, '_, L>) {
-        let Rival { span, object, .. } = pane.rival;
+        let Rival {
+            span,
+            slope,
+            object,
+        } = pane.rival;
         let number = usize::from(pane.slot);
         let mut alone;
-        let (drawn, plane, state) = if let Some((slot, _)) = self.cache.at(number) {
-            (Drawn::of(slot), slot.item.depth, out.view.state_of(slot))
+        let (drawn, state) = if let Some((slot, _)) = self.cache.at(number) {
+            (Drawn::of(slot), out.view.state_of(slot))
         } else {
             let Some(stray) = out.stray(object) else {
                 return;
             };
             alone = Alone::empty(L::EMPTY);
             set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
-            let plane = alone.find_depth(&stray.triangle);
-            (alone.drawn(), plane, out.view.state(object))
+            (alone.drawn(), out.view.state(object))
         };
         let Some(state) = state else {
             return;
         };
-        let known = Known::new(plane, self.depth, &mut self.written);
+        let known = Known::new(slope, self.depth, &mut self.written);
         draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
     }
 }

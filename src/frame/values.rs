@@ -8,7 +8,7 @@
 
 use super::alone::{Alone, set_up_stray};
 use super::renderer::{Renderer, View};
-use super::rival::deepen;
+use super::rival::{deepen, slope_of};
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::{Flags, begun_of};
 use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
@@ -163,8 +163,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let drawn = Drawn::of(slot);
         let ruled = Ruled { drawn, span, state };
-        let known =
-            is_compared.then_some(Known::new(slot.item.depth, self.depth, &mut self.written));
+        let known = is_compared.then(|| {
+            let slope = slope_of::<L>(slot, span, out);
+            Known::new(slope, self.depth, &mut self.written)
+        });
         if let Some(counter) = &self.counter {
             let is_alone = !self.over.meets(span.start, span.end);
             (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
@@ -184,16 +186,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let mut alone = Alone::empty(L::EMPTY);
         set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
-        let span = alone.span;
-        let is_compared = self.met && self.over.meets(span.start, span.end);
-        let plane = if is_compared {
-            alone.find_depth(&stray.triangle)
-        } else {
-            [0; 3]
-        };
-        let drawn = alone.drawn();
+        let (drawn, span) = (alone.drawn(), stray.span);
         let ruled = Ruled { drawn, span, state };
-        let known = is_compared.then_some(Known::new(plane, self.depth, &mut self.written));
+        let is_compared = self.met && self.over.meets(span.start, span.end);
+        let known =
+            is_compared.then(|| Known::new(stray.slope::<L>(out), self.depth, &mut self.written));
         if let Some(counter) = &self.counter {
             let is_alone = !self.over.meets(span.start, span.end);
             (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
