@@ -148,14 +148,9 @@ fn colour_guest<L: Look>(
     drawing: &mut Drawing<'_>,
     out: &mut Line<'_, '_, L>,
 ) {
-    let (object, span) = (rival.object, rival.span);
-    let Some(triangle) = out.view.triangle_of(object) else {
+    let span = rival.span;
+    let Some(stray) = Stray::with(span, rival.object, out.view) else {
         return;
-    };
-    let stray = Stray {
-        triangle,
-        object,
-        span,
     };
     let mut alone = Alone::empty(L::EMPTY);
     set_up_stray::<L>(&stray, &mut alone, drawing.counts, out);
@@ -274,19 +269,26 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-impl<'v, L: Look> Line<'_, 'v, L> {
-    /// What has no slot, by its number; `None` where it has no pixels on the line.
-    #[inline(always)]
-    pub(super) fn stray(&self, object: u16) -> Option<Stray<'v>> {
-        Stray::of(object, self.view, self.number)
-    }
-}
-
 impl<'v> Stray<'v> {
-    /// [`Line::stray`]: one copy for lines of all words.
+    /// What has no slot, by its number; `None` where it has no pixels on the line, or has ended.
     #[inline(never)]
-    fn of(object: u16, view: &View<'v>, line: u32) -> Option<Self> {
-        Self::on_line(view.triangle_of(object)?, object, line)
+    pub(super) fn of(object: u16, view: &View<'v>, line: u32) -> Option<Self> {
+        let triangle = view.triangle_of(object)?;
+        if triangle.lines().end <= line as i32 {
+            return None;
+        }
+        Self::on_line(triangle, object, line)
+    }
+
+    /// The same where its columns are known.
+    #[inline(always)]
+    pub(super) fn with(span: Span, object: u16, view: &View<'v>) -> Option<Self> {
+        let triangle = view.triangle_of(object)?;
+        Some(Self {
+            triangle,
+            object,
+            span,
+        })
     }
 
     #[inline(always)]
@@ -300,11 +302,6 @@ impl<'v> Stray<'v> {
             object,
             span,
         })
-    }
-
-    /// Whether the triangle has no pixels on this line and those to come.
-    pub(super) fn has_ended<L: Look>(&self, out: &Line<'_, '_, L>) -> bool {
-        self.triangle.lines().end <= out.number as i32
     }
 
     /// As one of those that compete for columns.

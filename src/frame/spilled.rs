@@ -164,14 +164,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     ) -> Option<Stray<'v>> {
         let object = spilled.at.object();
         let Some(kept) = self.kept(spilled) else {
-            return out.stray(object);
+            return Stray::of(object, out.view, out.number);
         };
         let span = span_of(kept);
-        (span.start < span.end).then_some(Stray {
-            triangle: out.view.triangle_of(object)?,
-            object,
-            span,
-        })
+        (span.start < span.end)
+            .then(|| Stray::with(span, object, out.view))
+            .flatten()
     }
 }
 

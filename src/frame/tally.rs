@@ -74,11 +74,7 @@ impl<P> Seen<'_, P> {
         if let Some(slot) = slot {
             return Some(rival_of::<L>(slot, self.span, out));
         }
-        let stray = Stray {
-            triangle: out.view.triangle_of(self.object)?,
-            object: self.object,
-            span: self.span,
-        };
+        let stray = Stray::with(self.span, self.object, out.view)?;
         Some(stray.rival(stray.slope::<L>(out)))
     }
 }
@@ -102,8 +98,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            let object = at.object();
-            let stray = out.stray(object).filter(|stray| !stray.has_ended(out));
+            let stray = Stray::of(at.object(), out.view, out.number);
             if let Some(Stray { object, span, .. }) = stray {
                 let slot = None;
                 f(&Seen { object, span, slot });
@@ -194,7 +189,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Counts a translucent span without a slot.
     fn count_pane_alone(&mut self, object: u16, state: &DrawState<'_>, out: &Line<'_, '_, L>) {
-        let Some(stray) = out.stray(object) else {
+        let Some(stray) = Stray::of(object, out.view, out.number) else {
             return;
         };
         // What it takes to count is not counted.

@@ -10,6 +10,7 @@
 //! No memory is lent for this: a pile lies on the stack.
 
 use super::alone::{Alone, set_up_stray};
+use super::guests::Stray;
 use super::renderer::Renderer;
 use super::rival::{Key, Rival, Slope, deepen, rival_of};
 use super::ruled::{Ruled, draw_ruled};
@@ -326,7 +327,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (drawn, state) = if let Some((slot, _)) = self.cache.at(number) {
             (Drawn::of(slot), out.view.state_of(slot))
         } else {
-            let Some(stray) = out.stray(object) else {
+            let Some(stray) = Stray::of(object, out.view, out.number) else {
                 return;
             };
             alone = Alone::empty(L::EMPTY);

@@ -7,6 +7,7 @@
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
 use super::alone::{Alone, set_up_stray};
+use super::guests::Stray;
 use super::renderer::{Renderer, View};
 use super::rival::{deepen, slope_of};
 use super::ruled::{Ruled, draw_ruled};
@@ -113,11 +114,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            if rules(out.view.state(at.object())) {
-                let stray = out.stray(at.object());
-                if stray.is_some_and(|stray| !stray.has_ended(out)) {
-                    return true;
-                }
+            let object = at.object();
+            if rules(out.view.state(object)) && Stray::of(object, out.view, out.number).is_some() {
+                return true;
             }
             at = next(self.links, at);
         }
