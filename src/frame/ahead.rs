@@ -95,33 +95,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             made += self.take_in(view, slot, at, object, line);
             (at, left, count) = (object.next, after, count + 1);
         }
-        let bytes = self.withhold(active, plain, at, count, left);
         self.count_set_ups(made);
-        self.counts.fetched += count;
-        self.counts.fetched_bytes += bytes;
-        bytes
-    }
-
-    /// Withholds the slots that were not active before; the bytes that were read.
-    fn withhold(
-        &mut self,
-        active: [u32; WORDS],
-        plain: [u32; WORDS],
-        rest: u16,
-        count: u32,
-        left: u32,
-    ) -> u32 {
         let Some(ahead) = &mut self.fetcher else {
             return 0;
         };
-        ahead.rest = rest;
+        ahead.rest = at;
         ahead.count += count;
         for word in 0..WORDS {
             ahead.used[word] |= self.cache.used[word] & !active[word];
             ahead.plain[word] |= self.cache.plain[word] & !plain[word];
         }
         (self.cache.used, self.cache.plain) = (active, plain);
-        ahead.bytes - left
+        let bytes = ahead.bytes - left;
+        self.counts.fetched += count;
+        self.counts.fetched_bytes += bytes;
+        bytes
     }
 
     /// What was fetched for the line that begins is active from now on; what else begins on it.

@@ -151,20 +151,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     ///
     /// A program that names this nowhere does not have the code.
     #[must_use]
-    pub fn paced(self, pace: Pace) -> Self {
-        Self {
-            pacer: Some(Pacer::new(pace)),
-            ..self
-        }
+    pub fn paced(mut self, pace: Pace) -> Self {
+        self.pacer = Some(Pacer::new(pace));
+        self
     }
 
     /// What a [paced](Renderer::paced) renderer has paid since it began a frame, or went back to a line above the last; all
     /// 0 of another.
     #[must_use]
     pub fn paid(&self) -> Paid {
-        self.pacer
-            .as_ref()
-            .map_or(Paid::default(), |pacer| pacer.paid)
+        let pacer = self.pacer.as_ref();
+        pacer.map_or(Paid::default(), |pacer| pacer.paid)
     }
 
     /// Whether a paced renderer can draw a scene.
@@ -172,11 +169,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if scene.has_values || self.fetcher.is_some() || self.counter.is_some() {
             return Err(LineError::Paced);
         }
-        let (needed, have) = (usize::from(scene.screen().width()), self.depth.len());
-        if have < needed {
-            return Err(LineError::Depth { needed, have });
-        }
-        Ok(())
+        self.check_depth(scene.screen().width())
     }
 
     /// Draws a line, as well as it can pay for; `false` where nothing is active on it or waits for it.

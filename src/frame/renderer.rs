@@ -287,11 +287,9 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     ///
     /// A program that names this nowhere does not have the code.
     #[must_use]
-    pub fn fetching(self, bytes_a_line: u32) -> Self {
-        Self {
-            fetcher: Some(Fetcher::new(bytes_a_line)),
-            ..self
-        }
+    pub fn fetching(mut self, bytes_a_line: u32) -> Self {
+        self.fetcher = Some(Fetcher::new(bytes_a_line));
+        self
     }
 
     /// The same, and spans and pixels are counted (M4): [`spans`](Renderer::spans) says how many. Lines take longer, some
@@ -299,11 +297,9 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     ///
     /// A program that names this nowhere does not have the code.
     #[must_use]
-    pub fn counting(self) -> Self {
-        Self {
-            counter: Some(Counter::new()),
-            ..self
-        }
+    pub fn counting(mut self) -> Self {
+        self.counter = Some(Counter::new());
+        self
     }
 
     /// Forgets the lines drawn so far and starts counting anew.
@@ -355,9 +351,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         if have < needed {
             return Err(LineError::Links { needed, have });
         }
-        let (needed, have) = (usize::from(scene.screen().width()), self.depth.len());
-        if have != 0 && have < needed {
-            return Err(LineError::Depth { needed, have });
+        if !self.depth.is_empty() {
+            self.check_depth(scene.screen().width())?;
         }
         let is_begun = scene.lines.end > 0;
         is_begun.then_some(()).ok_or(LineError::NotBegun)
@@ -388,12 +383,16 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Whether shadows can be counted on a line so wide.
     #[inline(never)]
     fn check_shadows(&self, width: u16) -> Result<(), LineError> {
-        let needed = usize::from(width);
-        let have = self.volumes.len();
+        let (needed, have) = (usize::from(width), self.volumes.len());
         if have < needed {
             return Err(LineError::Counts { needed, have });
         }
-        let have = self.depth.len();
+        self.check_depth(width)
+    }
+
+    /// Whether there is depth for all pixels of a line so wide.
+    pub(super) fn check_depth(&self, width: u16) -> Result<(), LineError> {
+        let (needed, have) = (usize::from(width), self.depth.len());
         if have < needed {
             return Err(LineError::Depth { needed, have });
         }

@@ -92,7 +92,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             // As much for colours as for finding who is seen.
             let leaves = pacer.left / 2;
             let sorted = self.sort_met(pacer, leaves, out);
-            self.add_met(pacer, leaves, runs, &sorted, out);
+            self.add_met(pacer, leaves, runs, sorted, out);
             self.written.clear();
         }
         true
@@ -212,10 +212,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         pacer: &mut Pacer<L, WORDS>,
         leaves: u32,
         out: &Line<'_, '_, L>,
-    ) -> Sorted<WORDS> {
+    ) -> Sorted {
         let step = u32::from(pacer.pace.step);
         let mut sorted = Sorted {
-            keys: [[0; 32]; WORDS],
             slots: 0,
             is_whole: true,
         };
@@ -226,11 +225,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let slots = sorted.slots;
                 let most = leaves + slots as u32 * step;
                 sorted.is_whole &= pacer.pay(self.if_thin(pacer, number), most);
-                let keys = sorted.keys.as_flattened_mut();
                 if sorted.is_whole {
                     let key = self.find_key(number, out);
+                    let keys = self.cache.order.as_flattened_mut();
                     pacer.left -= step * insert(keys, slots, key, |other| other > key);
-                } else if let Some(to) = keys.get_mut(slots) {
+                } else if let Some(to) = self.cache.order.as_flattened_mut().get_mut(slots) {
                     *to = number as u32;
                 }
                 sorted.slots = slots + 1;
@@ -262,17 +261,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         pacer: &mut Pacer<L, WORDS>,
         leaves: u32,
         runs: &mut Runs<'_>,
-        sorted: &Sorted<WORDS>,
+        sorted: Sorted,
         out: &Line<'_, '_, L>,
     ) {
         let mut free = out.pixels.len() as u32;
-        let keys = sorted.keys.as_flattened().get(..sorted.slots);
+        let cache = &*self.cache;
+        let keys = cache.order.as_flattened().get(..sorted.slots);
         let keys = keys.unwrap_or_default();
-        for k in 0..sorted.slots {
-            let field = Field::of(self.cache, keys);
-            let Some(&key) = keys.get(k) else {
-                return;
-            };
+        let field = Field::of(cache, keys);
+        for (k, &key) in keys.iter().enumerate() {
             let (number, span) = (number_of::<WORDS>(key), field.span(key));
             let (Some(slot), Some(&far)) = (
                 self.cache.slots.as_flattened().get(number),
@@ -291,7 +288,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 guests: 0,
             };
             let rivals = match sorted.is_whole {
-                true => self.pay_rivals(pacer, &field, Behind { span, far, after }, leaves),
+                true => {
+                    self.pay_rivals(pacer, &field, nearer(field.later(k + 1), far), span, leaves)
+                }
                 false => Rivals::TooMany,
             };
             let mut rest = span;
@@ -324,16 +323,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         &self,
         pacer: &mut Pacer<L, WORDS>,
         field: &Field<'_, L, WORDS>,
-        of: Behind,
+        later: impl Iterator<Item = u32>,
+        span: Span,
         leaves: u32,
     ) -> Rivals {
         let (pair, step) = (u32::from(pacer.pace.pair), u32::from(pacer.pace.step));
         let (mut cost, mut meets) = (0u32, false);
-        for key in nearer(field.later(of.after.slots), of.far) {
+        for key in later {
             if !pacer.pay(step, leaves) {
                 return Rivals::TooMany;
             }
-            if field.span(key).meets(of.span) {
+            if field.span(key).meets(span) {
                 meets = true;
                 cost += pair + self.if_thin(pacer, number_of::<WORDS>(key));
             }
@@ -346,19 +346,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-/// Slots from the nearest on, if they are sorted.
-struct Sorted<const WORDS: usize> {
-    keys: [[u32; 32]; WORDS],
+/// How many slots are in the order of the cache, and whether they are sorted from the nearest on.
+struct Sorted {
     slots: usize,
     is_whole: bool,
-}
-
-/// A span, its farthest depth, and what comes after it.
-#[derive(Clone, Copy)]
-struct Behind {
-    span: Span,
-    far: u32,
-    after: Taken,
 }
 
 /// What comes later than a span and may be seen before it.
