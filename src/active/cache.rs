@@ -278,11 +278,6 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.turning[word] &= !slots;
     }
 
-    /// Says that the line to come is this one.
-    pub(crate) fn before_line(&mut self, line: u16) {
-        self.line = line.wrapping_sub(1);
-    }
-
     /// Goes on to a line; whether something changes there, or a block of lines begins.
     #[inline(always)]
     pub(crate) fn enter_line(&mut self, line: u16) -> bool {

@@ -66,7 +66,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn fetch_next(&mut self, view: &View<'_>, end: u16) -> u32 {
         if self.content != Some(view.content) {
             self.start_anew(view);
-            self.cache.before_line(view.first);
+            self.cache.enter_line(view.first.wrapping_sub(1));
         }
         let line = self.next;
         let head = view.bins.get(usize::from(line.wrapping_sub(view.first)));

@@ -115,9 +115,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if joined > 0 {
             let width = out.pixels.len() as u32;
             self.over.take_covered(width, |from, to| {
-                let before = from
-                    .checked_sub(1)
-                    .and_then(|at| out.pixels.get(at as usize));
+                let before = out.pixels.get(from.wrapping_sub(1) as usize);
                 let colour = before.copied().unwrap_or(background);
                 fill_columns::<L>(from, to, colour, out.pixels);
             });
@@ -142,7 +140,13 @@ fn colour_evenly<L: Look>(
 }
 
 /// One colour for columns.
-fn fill_columns<L: Look>(start: u32, end: u32, colour: WordOf<L>, pixels: &mut [WordOf<L>]) {
+#[inline(always)]
+pub(super) fn fill_columns<L: Look>(
+    start: u32,
+    end: u32,
+    colour: WordOf<L>,
+    pixels: &mut [WordOf<L>],
+) {
     if let Some(pixels) = pixels.get_mut(start as usize..end as usize) {
         fill_even::<L::Pixel>(pixels, colour);
     }

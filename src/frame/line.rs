@@ -4,6 +4,7 @@
 //! mask. Where two meet, all are sorted: from the nearest on, or without depth from the one submitted last on. Each
 //! is coloured where nobody has been before (`near`). The background goes where the mask has nothing.
 
+use super::evenly::fill_columns;
 use super::renderer::{LineError, Renderer, View};
 use super::spans::{Drawn, Line, Span, colour, columns_of};
 use crate::look::{Look, WordOf, fill_even};
@@ -91,9 +92,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
-            if let Some(run) = pixels.get_mut(from as usize..to as usize) {
-                fill_even::<L::Pixel>(run, background);
-            }
+            fill_columns::<L>(from, to, background, pixels);
         });
     }
 

@@ -71,10 +71,8 @@ impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
 
     /// Forgets all lines, to begin at the first.
     fn start(&mut self, first: u16) {
-        self.paid = Paid::default();
-        (self.line, self.rest) = (first, NONE);
-        self.ahead = [[0; WORDS]; LINES as usize];
-        self.withheld = [0; WORDS];
+        *self = Self::new(self.pace);
+        self.line = first;
     }
 
     /// Whether triangles that are on a line have not begun.

@@ -72,14 +72,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return fast;
         }
         let (mut level, mut at) = (fast, self.first_spilled());
-        while at.is_some() {
-            if let Some(state) = self.state_at(at, view) {
-                let here = u32::from(state.priority);
-                if here > rank && level.is_none_or(|level| here < level) {
-                    level = Some(here);
-                }
-            }
-            at = self.after(at);
+        while let Some(found) = self.spilled_of(at, view, |state| {
+            let here = u32::from(state.priority);
+            here > rank && level.is_none_or(|level| here < level)
+        }) {
+            level = Some(found.state.priority.into());
+            at = self.after(found.at);
         }
         level
     }

@@ -144,6 +144,7 @@ impl<B: LineBuf> Worker<'_, B> {
         B: LineBuf<Word = WordOf<L>>,
     {
         renderer.restart();
+        let needed = usize::from(scene.screen().width());
         let asks = ASKS[usize::from(self.odd)];
         self.odd = !self.odd;
         self.say(asks, peer);
@@ -156,7 +157,11 @@ impl<B: LineBuf> Worker<'_, B> {
                     let Some(mut buf) = self.buffer(peer) else {
                         return false;
                     };
-                    let result = draw(scene, renderer, background, line, &mut buf);
+                    let have = buf.pixels().len();
+                    let result = match buf.pixels().get_mut(..needed) {
+                        Some(pixels) => renderer.draw_line(scene, line, pixels, background),
+                        None => Err(LineError::Pixels { needed, have }),
+                    };
                     // There is room for every buffer.
                     let _ = self.to_desk.enqueue(Drawn { line, result, buf });
                     (peer.wake)();
@@ -189,26 +194,6 @@ impl<B: LineBuf> Worker<'_, B> {
         self.order.store(order, Ordering::Release);
         (peer.wake)();
     }
-}
-
-/// Draws a line into a worker's buffer.
-fn draw<L, B, const WORDS: usize>(
-    scene: &Scene<'_, '_, L>,
-    renderer: &mut Renderer<'_, L, WORDS>,
-    background: WordOf<L>,
-    line: u16,
-    buf: &mut B,
-) -> Result<bool, LineError>
-where
-    L: Look,
-    B: LineBuf<Word = WordOf<L>>,
-{
-    let needed = usize::from(scene.screen().width());
-    let pixels = buf.pixels();
-    let have = pixels.len();
-    let short = LineError::Pixels { needed, have };
-    let pixels = pixels.get_mut(..needed).ok_or(short)?;
-    renderer.draw_line(scene, line, pixels, background)
 }
 
 /// The end of a [`Relay`] that sends.

@@ -287,10 +287,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 slots: k + 1,
                 guests: 0,
             };
+            let later = nearer(field.later(after.slots), far);
             let rivals = match sorted.is_whole {
-                true => {
-                    self.pay_rivals(pacer, &field, nearer(field.later(k + 1), far), span, leaves)
-                }
+                true => self.pay_rivals(pacer, &field, later, span, leaves),
                 false => Rivals::TooMany,
             };
             let mut rest = span;

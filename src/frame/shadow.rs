@@ -97,12 +97,7 @@ pub(super) fn count_shadowed<L: Look>(
         if has_texels::<L>(Some(state)) {
             pixels.fetched += seen.count_ones();
         }
-        let is_holed = L::TEXTURED && state.holes.is_some();
-        pixels.seen += if is_holed && seen != 0 {
-            (seen & opaque_of::<L>(ruled, first, part, out)).count_ones()
-        } else {
-            seen.count_ones()
-        };
+        pixels.seen += (seen & opaque_of::<L>(ruled, first, part, out)).count_ones();
     });
     match state.role() {
         Role::Front(_) | Role::Back(_) => figures.add_volume(pixels.all),

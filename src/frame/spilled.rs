@@ -130,12 +130,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// The state of its draw call; `None` where it is known to have no pixels on the line.
-    #[inline(always)]
-    pub(super) fn state_at<'v>(&self, at: Spilled, view: &View<'v>) -> Option<&'v DrawState<'v>> {
-        view.draws.states.get(self.begun(at, view).checked_sub(1)?)
-    }
-
     #[inline(always)]
     fn kept(&self, spilled: Spilled) -> Option<u32> {
         self.cache

@@ -124,16 +124,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             } else {
                 self.seen_of(one, out)
             };
+            let has_texels = has_texels::<L>(out.view.state(one.object));
             let pixels = SpanPixels {
                 all,
                 seen,
                 hidden: all - seen,
                 tested: 0,
-                fetched: if has_texels::<L>(out.view.state(one.object)) {
-                    seen
-                } else {
-                    0
-                },
+                fetched: seen * u32::from(has_texels),
             };
             counts.add_span(pixels, is_alone);
         });
@@ -221,13 +218,7 @@ fn count_span<L: Look>(
     // A slot without values is compared by no state of its own.
     let has_texels = has_texels::<L>(out.view.state(drawn.object));
     each_part(ruled, out, &mut |first, part| {
-        let all = u32::MAX << (32 - part);
-        let is_holed = L::TEXTURED && state.holes.is_some();
-        let asked = if is_holed {
-            all & opaque_of::<L>(ruled, first, part, out)
-        } else {
-            all
-        };
+        let asked = u32::MAX << (32 - part) & opaque_of::<L>(ruled, first, part, out);
         let mut seen = asked;
         if let Some(known) = known {
             let mut cells = cells_at(known, first);
@@ -239,7 +230,10 @@ fn count_span<L: Look>(
         pixels.seen += seen.count_ones();
         pixels.hidden += (asked & !seen).count_ones();
         if has_texels {
-            pixels.fetched += if is_holed { part } else { seen.count_ones() };
+            pixels.fetched += match state.holes {
+                Some(_) => part,
+                None => seen.count_ones(),
+            };
         }
     });
     counts.add_span(pixels, is_alone && known.is_none());
@@ -262,13 +256,17 @@ pub(super) fn each_part<L: Look>(
     }
 }
 
-/// A bit for each of some pixels that is not a hole of the texture, the first the top one.
+/// A bit for each of some pixels that is not a hole of the texture, the first the top one; of a shorter run the lower bits
+/// say nothing.
 pub(super) fn opaque_of<L: Look>(
     ruled: Ruled<'_, L::Planes>,
     first: u32,
     pixels: u32,
     out: &Line<'_, '_, L>,
 ) -> u32 {
+    if !L::TEXTURED || ruled.state.holes.is_none() {
+        return u32::MAX;
+    }
     let mut others = None;
     let ink = ink_of::<L>(ruled, &mut others, out);
     let at = ruled.span.place(first, out.number);

@@ -23,7 +23,7 @@ pub(super) fn depth_plane(triangle: &Triangle<'_>) -> Option<[u32; 3]> {
     } else {
         None
     };
-    let plane = match plane {
+    let [at, dx, dy] = match plane {
         Some(plane) => plane,
         None => {
             let values = depth.map(|d| d.min(i32::MAX as u32) as i32);
@@ -31,7 +31,6 @@ pub(super) fn depth_plane(triangle: &Triangle<'_>) -> Option<[u32; 3]> {
             area.as_ref()?.plane(values)?
         }
     };
-    let [at, dx, dy] = plane;
     Some([at.wrapping_add(MARGIN), dx, dy])
 }
 
