@@ -58,9 +58,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
         }
         let (mut one, mut more) = (Costs::default(), Costs::default());
-        for Run { slot, columns } in runs.iter() {
-            one.add(columns, self.cost_of(pacer, slot, 1));
-            let others = self.cost_of_others(pacer, slot, columns.end - columns.start);
+        for Run { number, columns } in runs.iter() {
+            one.add(columns, self.cost_of(pacer, number, 1));
+            let others = self.cost_of_others(pacer, number, columns.end - columns.start);
             more.add(columns, others);
         }
         let joined = one.pay(&mut pacer.left);
@@ -87,11 +87,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         background: WordOf<L>,
     ) {
         let Colouring { joined, even } = self.choose(pacer, runs);
-        for Run {
-            slot: number,
-            columns,
-        } in runs.iter()
-        {
+        for Run { number, columns } in runs.iter() {
             let (width, class) = (columns.end - columns.start, class_of(columns));
             if class < joined || class == joined && !pacer.pay(self.cost_of(pacer, number, 1), 0) {
                 self.over.cover(columns.start, columns.end);

@@ -33,10 +33,9 @@ impl Guest {
         let &[key, object, span, at, step] = cells else {
             return None;
         };
-        let slope = Slope { at, step };
         let rival = Rival {
             span: Span::of(span),
-            slope,
+            slope: Slope { at, step },
             object: object as u16,
         };
         Some(Self { key, rival })
@@ -70,19 +69,10 @@ impl Guest {
         let Some(cells) = cells.get_mut(CELLS * number..CELLS * (number + 1)) else {
             return;
         };
-        let Rival {
-            span,
-            slope,
-            object,
-        } = self.rival;
-        let words = [
-            self.key,
-            u32::from(object),
-            span.start << 16 | span.end,
-            slope.at,
-            slope.step,
-        ];
-        cells.copy_from_slice(&words);
+        let Span { start, end } = self.rival.span;
+        let Slope { at, step } = self.rival.slope;
+        let object = u32::from(self.rival.object);
+        cells.copy_from_slice(&[self.key, object, start << 16 | end, at, step]);
     }
 }
 

@@ -4,7 +4,6 @@
 //! word each: no column has two.
 
 use super::near::{Field, NUMBER, Taken, insert, nearer, number_of};
-use super::pace::Pace;
 use super::paced::Pacer;
 use super::renderer::Renderer;
 use super::rival::{rival_of, slope_of};
@@ -22,7 +21,7 @@ pub(super) struct Runs<'c> {
 
 /// A run of pixels of what is in a slot.
 pub(super) struct Run {
-    pub(super) slot: usize,
+    pub(super) number: usize,
     pub(super) columns: Span,
 }
 
@@ -49,7 +48,7 @@ impl<'c> Runs<'c> {
     pub(super) fn iter(&self) -> impl Iterator<Item = Run> {
         let cells = self.cells.get(..self.count).unwrap_or_default();
         cells.iter().map(|cell| Run {
-            slot: (cell >> 20) as usize,
+            number: (cell >> 20) as usize,
             columns: Span::new(cell >> 10 & 1023, cell & 1023),
         })
     }
@@ -168,13 +167,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What it costs to colour so many pixels of a slot.
     #[inline(always)]
     pub(super) fn cost_of(&self, pacer: &Pacer<L, WORDS>, number: usize, width: u32) -> u32 {
-        let Pace {
-            large, run, pixel, ..
-        } = pacer.pace;
-        let cost = u32::from(run) + u32::from(pixel) * width;
+        let pace = &pacer.pace;
+        let cost = u32::from(pace.run) + u32::from(pace.pixel) * width;
         match self.flags(number).fill() {
             // Planes are made anew each time.
-            Fill::Thin => 2 * cost + u32::from(large),
+            Fill::Thin => 2 * cost + u32::from(pace.large),
             fill if L::TEXTURED => cost * self.halves(number, fill) / 2,
             Fill::Plain | Fill::Small => cost,
             Fill::Wide => 2 * cost,

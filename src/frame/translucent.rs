@@ -317,11 +317,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws some columns of a pane.
     #[inline(never)]
     fn draw_pane(&mut self, pane: &Pane, part: Span, out: &mut Line<'_, '_, L>) {
-        let Rival {
-            span,
-            slope,
-            object,
-        } = pane.rival;
+        let (span, object) = (pane.rival.span, pane.rival.object);
         let number = usize::from(pane.slot);
         let mut alone;
         let (drawn, state) = if let Some((slot, _)) = self.cache.at(number) {
@@ -337,7 +333,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = state else {
             return;
         };
-        let known = Known::new(slope, self.depth, &mut self.written);
+        let known = Known::new(pane.rival.slope, self.depth, &mut self.written);
         draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
     }
 }
