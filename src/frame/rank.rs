@@ -63,7 +63,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let waits = state.waits() && (self.met || state.is_in_vain());
             !waits && (!view.ranked || u32::from(state.priority) == rank)
         };
-        self.spilled_of(at, view, is_next)
+        self.spilled_of(at, view, &is_next)
     }
 
     /// The lowest priority above another; `fast` is that of what is in slots.
@@ -72,7 +72,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return fast;
         }
         let (mut level, mut at) = (fast, self.first_spilled());
-        while let Some(found) = self.spilled_of(at, view, |state| {
+        while let Some(found) = self.spilled_of(at, view, &|state| {
             let here = u32::from(state.priority);
             here > rank && level.is_none_or(|level| here < level)
         }) {

@@ -238,7 +238,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.first_spilled();
         loop {
             let is_more = |state: &DrawState<'_>| lights.with(state.role()) != lights;
-            let Some(found) = self.spilled_of(at, out.view, is_more) else {
+            let Some(found) = self.spilled_of(at, out.view, &is_more) else {
                 return (count, lights);
             };
             if self.spilled_stray(found.at, out).is_some() {
@@ -275,7 +275,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// The first of what has no slot that is of a step, from `at` on.
     #[inline(never)]
     fn next_of_step<'v>(&self, at: Spilled, step: Step, view: &View<'v>) -> Option<Found<'v>> {
-        self.spilled_of(at, view, |state| step_of(state.role()) == Some(step))
+        self.spilled_of(at, view, &|state| step_of(state.role()) == Some(step))
     }
 
     fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {

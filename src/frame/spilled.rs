@@ -99,12 +99,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// The first from `at` on whose draw call is such, and that is not known to have no pixels on the line.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn spilled_of<'v>(
         &self,
         mut at: Spilled,
         view: &View<'v>,
-        is_such: impl Fn(&DrawState<'_>) -> bool,
+        is_such: &dyn Fn(&DrawState<'_>) -> bool,
     ) -> Option<Found<'v>> {
         while at.is_some() {
             let begun = self.begun(at, view);

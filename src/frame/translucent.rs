@@ -269,7 +269,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             pile.add(Pane { rival, slot }, take);
         }
         let mut at = self.first_spilled();
-        while let Some(found) = self.spilled_of(at, out.view, |state| state.is_translucent()) {
+        while let Some(found) = self.spilled_of(at, out.view, &|state| state.is_translucent()) {
             if let Some(stray) = self.spilled_stray(found.at, out) {
                 let rival = stray.rival(stray.slope::<L>(out));
                 let slot = NO_SLOT;
