@@ -27,9 +27,8 @@ impl Surface {
         let triangle = view.triangle_of(object)?;
         let of = alphas.of(triangle.object, view.vertices);
         let ends = thin_span(&triangle, span, line);
-        Some(Self(ends.line(
-            of.map(|alpha| i64::from(alpha) << (Self::FRACTION - 8)),
-        )))
+        let values = of.map(|alpha| i64::from(alpha) << (Self::FRACTION - 8));
+        Some(Self(ends.line(values)))
     }
 
     /// At a column of the span, rounded to nearest.

@@ -62,11 +62,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
-        if view.has_values
-            && self
-                .values
-                .is_some_and(|draw| draw(self, &mut out, background))
-        {
+        let values = self.values.filter(|_| view.has_values);
+        if values.is_some_and(|draw| draw(self, &mut out, background)) {
             return true;
         }
         if let Some(counter) = &self.counter {

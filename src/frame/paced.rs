@@ -88,22 +88,17 @@ impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
 
     /// Pays for something, if that leaves as much as is said.
     pub(super) fn pay(&mut self, cost: u32, leaves: u32) -> bool {
-        match self.left.checked_sub(cost) {
-            Some(left) if left >= leaves => {
-                self.left = left;
-                true
-            }
-            _ => false,
-        }
+        let left = self.left.checked_sub(cost).filter(|&left| left >= leaves);
+        self.left = left.unwrap_or(self.left);
+        left.is_some()
     }
 
     /// Those of some slots whose sides the line can pay for; the others are given up.
     fn pay_each(&mut self, mut slots: u32) -> u32 {
         let mut paid = 0;
         while let Some(i) = take_first(&mut slots) {
-            let one = bit(i);
             if self.pay(self.pace.turn.into(), 0) {
-                paid |= one;
+                paid |= bit(i);
             } else {
                 self.paid.lost += 1;
             }

@@ -57,7 +57,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// What has no slot and this priority, has pixels on the line and does not wait, from `at` on.
-    #[inline(never)]
     fn next_alone<'v>(&self, at: Spilled, rank: u32, view: &View<'v>) -> Option<Found<'v>> {
         let is_next = |state: &DrawState<'_>| {
             let waits = state.waits() && (self.met || state.is_in_vain());

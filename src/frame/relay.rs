@@ -370,29 +370,24 @@ where
     let end = scene.lines().end;
     let mut lines = Lines::new(scene, background, |_, _| {});
     desk.open(scene);
-    let sent = send(
-        scene,
-        renderer,
-        pump,
-        lines_per_transfer,
-        |renderer, line, pixels| {
-            let is_active = if desk.has_lent(line) {
-                desk.take(line, pixels, peer)?
-            } else {
-                desk.answer(line + 1, peer);
-                if line < desk.blank {
-                    L::Pixel::fill(pixels, background);
-                    return Ok(false);
-                }
-                lines.draw(renderer, line, pixels)?
-            };
-            if !is_active {
-                let next = scene.begins_from(line + 1);
-                desk.blank = desk.blank.max(next);
+    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
+        let is_active = if desk.has_lent(line) {
+            desk.take(line, pixels, peer)?
+        } else {
+            desk.answer(line + 1, peer);
+            if line < desk.blank {
+                L::Pixel::fill(pixels, background);
+                return Ok(false);
             }
-            Ok(is_active)
-        },
-    );
+            lines.draw(renderer, line, pixels)?
+        };
+        if !is_active {
+            let next = scene.begins_from(line + 1);
+            desk.blank = desk.blank.max(next);
+        }
+        Ok(is_active)
+    };
+    let sent = send(scene, renderer, pump, lines_per_transfer, draw);
     let closed = desk.close(end, peer).map_err(FrameError::Line);
     sent.and_then(|sent| closed.map(|()| sent))
 }

@@ -199,21 +199,13 @@ fn lay_by_pixel<L: Look>(
     while start < run.end {
         let end = run.end.min(start + MOST_TESTED as u32);
         let (from, pixels) = (start, end - start);
-        let (Some(new), Some(alphas)) = (
-            colours.get_mut(..pixels as usize),
-            alphas.get_mut(..pixels as usize),
-        ) else {
+        let all = ..pixels as usize;
+        let (Some(new), Some(alphas)) = (colours.get_mut(all), alphas.get_mut(all)) else {
             return;
         };
         let at = ink.span.place(from, out.number);
-        let opaque = L::fill_opaque(
-            ink.fill,
-            ink.planes,
-            at,
-            out.view.draws.states,
-            ink.dithers,
-            new,
-        );
+        let draws = out.view.draws.states;
+        let opaque = L::fill_opaque(ink.fill, ink.planes, at, draws, ink.dithers, new);
         let has_alphas = state.has_alphas();
         if has_alphas {
             find_alphas::<L>(ink, at, state, out.view, alphas);

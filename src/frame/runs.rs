@@ -90,8 +90,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.over.clear();
             // As much for colours as for finding who is seen.
             let leaves = pacer.left / 2;
-            let sorted = self.sort_met(pacer, leaves, out);
-            self.add_met(pacer, leaves, runs, sorted, out);
+            let is_sorted = self.sort_met(pacer, leaves, out);
+            self.add_met(pacer, leaves, runs, listed as usize, is_sorted, out);
             self.written.clear();
         }
         true
@@ -189,10 +189,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What is more where a slot without a plane of depth is compared.
     #[inline(always)]
     fn if_thin(&self, pacer: &Pacer<L, WORDS>, number: usize) -> u32 {
-        if self.flags(number).lacks_depth() {
-            return pacer.pace.large.into();
-        }
-        0
+        let is_thin = self.flags(number).lacks_depth();
+        if is_thin { pacer.pace.large.into() } else { 0 }
     }
 
     #[inline(always)]
@@ -202,76 +200,70 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Sorts the slots that are listed from the nearest on, if the line can pay for it, whatever their order was
-    /// on another line.
+    /// on another line; whether they are sorted.
     #[inline(never)]
     fn sort_met(
         &mut self,
         pacer: &mut Pacer<L, WORDS>,
         leaves: u32,
         out: &Line<'_, '_, L>,
-    ) -> Sorted {
+    ) -> bool {
         let step = u32::from(pacer.pace.step);
-        let mut sorted = Sorted {
-            slots: 0,
-            is_whole: true,
-        };
+        let (mut slots, mut is_sorted) = (0, true);
         for word in 0..WORDS {
             let mut listed = self.cache.listed[word];
             while let Some(i) = take_first(&mut listed) {
                 let number = word * 32 + i as usize;
-                let slots = sorted.slots;
                 let most = leaves + slots as u32 * step;
-                sorted.is_whole &= pacer.pay(self.if_thin(pacer, number), most);
-                if sorted.is_whole {
+                is_sorted &= pacer.pay(self.if_thin(pacer, number), most);
+                if is_sorted {
                     let key = self.find_key(number, out);
                     let keys = self.cache.order.as_flattened_mut();
                     pacer.left -= step * insert(keys, slots, key, |other| other > key);
                 } else if let Some(to) = self.cache.order.as_flattened_mut().get_mut(slots) {
                     *to = number as u32;
                 }
-                sorted.slots = slots + 1;
+                slots += 1;
             }
         }
-        sorted
+        is_sorted
     }
 
     /// The nearest depth of a slot's span, or what stands for it, and its number; the farthest is kept.
     #[inline(always)]
     fn find_key(&mut self, number: usize, out: &Line<'_, '_, L>) -> u32 {
-        let span = self.columns(number);
-        let (Some(slot), Some(kept)) = (
-            self.cache.slots.as_flattened().get(number),
-            self.cache.far.as_flattened_mut().get_mut(number),
-        ) else {
+        let Some((slot, span)) = self.cache.at(number) else {
             return number as u32;
         };
+        let span = Span::of(span);
         let [near, far] = slope_of::<L>(slot, span, out).range(span);
-        *kept = far;
+        if let Some(kept) = self.cache.far.as_flattened_mut().get_mut(number) {
+            *kept = far;
+        }
         near & !NUMBER | number as u32
     }
 
-    /// Adds what is seen of the slots that are sorted. Those that may lie across what comes later are compared, while
-    /// half of what the line has is left.
+    /// Adds what is seen of so many slots in the order of the cache. If that is from the nearest on, those that may lie
+    /// across what comes later are compared, while half of what the line has is left.
     #[inline(never)]
     fn add_met(
         &mut self,
         pacer: &mut Pacer<L, WORDS>,
         leaves: u32,
         runs: &mut Runs<'_>,
-        sorted: Sorted,
+        slots: usize,
+        is_sorted: bool,
         out: &Line<'_, '_, L>,
     ) {
         let mut free = out.pixels.len() as u32;
         let cache = &*self.cache;
-        let keys = cache.order.as_flattened().get(..sorted.slots);
+        let keys = cache.order.as_flattened().get(..slots);
         let keys = keys.unwrap_or_default();
         let field = Field::of(cache, keys);
         for (k, &key) in keys.iter().enumerate() {
             let (number, span) = (number_of::<WORDS>(key), field.span(key));
-            let (Some(slot), Some(&far)) = (
-                self.cache.slots.as_flattened().get(number),
-                self.cache.far.as_flattened().get(number),
-            ) else {
+            let far = cache.far.as_flattened().get(number);
+            let (Some((slot, _)), Some(&far)) = (cache.at(number), far) else {
                 return;
             };
             if free == 0 {
@@ -285,7 +277,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 guests: 0,
             };
             let later = nearer(field.later(after.slots), far);
-            let rivals = match sorted.is_whole {
+            let rivals = match is_sorted {
                 true => self.pay_rivals(pacer, &field, later, span, leaves),
                 false => Rivals::TooMany,
             };
@@ -340,12 +332,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             true => Rivals::TooMany,
         }
     }
-}
-
-/// How many slots are in the order of the cache, and whether they are sorted from the nearest on.
-struct Sorted {
-    slots: usize,
-    is_whole: bool,
 }
 
 /// What comes later than a span and may be seen before it.

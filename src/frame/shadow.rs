@@ -222,8 +222,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while let Some(i) = self.next_with_values(word, &mut others) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                let role = out.view.state_of(slot).map(|state| state.role());
-                let role = role.unwrap_or_default();
+                let state = out.view.state_of(slot);
+                let role = state.map_or(Role::None, |state| state.role());
                 if let Some(step) = step_of(role) {
                     lights = lights.with(role);
                     deepen::<L>(slot, out.view);
@@ -236,16 +236,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         let mut at = self.first_spilled();
-        loop {
-            let is_more = |state: &DrawState<'_>| lights.with(state.role()) != lights;
-            let Some(found) = self.spilled_of(at, out.view, &is_more) else {
-                return (count, lights);
-            };
+        while let Some(found) =
+            self.spilled_of(at, out.view, &|state| lights.with(state.role()) != lights)
+        {
             if self.spilled_stray(found.at, out).is_some() {
                 lights = lights.with(found.state.role());
             }
             at = self.after(found.at);
         }
+        (count, lights)
     }
 
     /// Takes the spans of a step in order of submission: of so many slots that are listed, and what has none between
@@ -273,7 +272,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// The first of what has no slot that is of a step, from `at` on.
-    #[inline(never)]
     fn next_of_step<'v>(&self, at: Spilled, step: Step, view: &View<'v>) -> Option<Found<'v>> {
         self.spilled_of(at, view, &|state| step_of(state.role()) == Some(step))
     }

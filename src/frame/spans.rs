@@ -105,16 +105,11 @@ pub(super) fn colour_slot<L: Look>(
         return;
     };
     let at = span.place(span.start, out.number);
+    let (planes, draws) = (&slot.item.planes, out.view.draws.states);
     if L::TEXTURED {
-        return L::fill_slot(
-            flags.fill(),
-            &slot.item.planes,
-            at,
-            out.view.draws.states,
-            run,
-        );
+        return L::fill_slot(flags.fill(), planes, at, draws, run);
     }
-    L::fill_plain(&slot.item.planes, at, out.view.draws.states, run);
+    L::fill_plain(planes, at, draws, run);
 }
 
 /// Colours a span.

@@ -272,14 +272,8 @@ pub(super) fn opaque_of<L: Look>(
     let at = ruled.span.place(first, out.number);
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let colours = colours.get_mut(..pixels as usize).unwrap_or_default();
-    L::fill_opaque(
-        ink.fill,
-        ink.planes,
-        at,
-        out.view.draws.states,
-        false,
-        colours,
-    )
+    let draws = out.view.draws.states;
+    L::fill_opaque(ink.fill, ink.planes, at, draws, false, colours)
 }
 
 /// A copy of the depths that are there from a column on; what nobody has written is farthest away.

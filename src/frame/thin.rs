@@ -55,21 +55,19 @@ pub(super) fn thin_span<'a>(triangle: &'a Triangle<'a>, span: Span, line: u32) -
 fn parts_at(triangle: &Triangle<'_>, column: u32, line: u32) -> Parts {
     let [a, b, c] = [0, 1, 2].map(|i| {
         let place = triangle.place(i);
-        ((place & 0xFFFF) as i32, (place >> 16) as i32)
+        [(place & 0xFFFF) as i32, (place >> 16) as i32]
     });
-    let x = 8 * (column as i32 + ORIGIN) + 4 - a.0;
-    let y = 8 * (line as i32 + ORIGIN) + 4 - a.1;
+    let x = 8 * (column as i32 + ORIGIN) + 4 - a[0];
+    let y = 8 * (line as i32 + ORIGIN) + 4 - a[1];
     let area = triangle.area();
     let part = |doubled: i32| part_of((doubled.max(0) as u32).min(area), area);
+    let across = |to: [i32; 2]| {
+        let [dx, dy] = [to[0] - a[0], to[1] - a[1]];
+        x.wrapping_mul(dy).wrapping_sub(y.wrapping_mul(dx))
+    };
     Parts {
-        second: part(
-            x.wrapping_mul(c.1 - a.1)
-                .wrapping_sub(y.wrapping_mul(c.0 - a.0)),
-        ),
-        third: part(
-            y.wrapping_mul(b.0 - a.0)
-                .wrapping_sub(x.wrapping_mul(b.1 - a.1)),
-        ),
+        second: part(across(c)),
+        third: part(across(b).wrapping_neg()),
     }
 }
 
