@@ -71,9 +71,6 @@ impl Interleave {
     #[inline]
     #[must_use]
     pub const fn at_or_after(&self, line: u32) -> u32 {
-        if self.factor == 1 {
-            return line;
-        }
         let (factor, band) = (self.factor as u32, self.band as u32);
         let at = line / band;
         let ahead = (factor + self.offset as u32 - at % factor) % factor;

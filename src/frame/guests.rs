@@ -29,8 +29,8 @@ pub(super) const CELLS: usize = 5;
 impl Guest {
     #[inline(always)]
     pub(super) fn of(cells: &[u32], number: usize) -> Option<Self> {
-        let cells = cells.get(CELLS * number..CELLS * (number + 1))?;
-        let &[key, object, span, at, step] = cells else {
+        let cells = cells.get(CELLS * number..CELLS * (number + 1));
+        let &[key, object, span, at, step] = cells? else {
             return None;
         };
         let rival = Rival {

@@ -139,11 +139,8 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
             }
             keys = later;
             let number = number_of::<WORDS>(*key);
-            let (Some(slot), Some(&word), Some(&far)) = (
-                self.cache.slots.as_flattened().get(number),
-                self.cache.spans.as_flattened().get(number),
-                self.cache.far.as_flattened().get(number),
-            ) else {
+            let far = self.cache.far.as_flattened().get(number);
+            let (Some((slot, word)), Some(&far)) = (self.cache.at(number), far) else {
                 break;
             };
             let span = Span::of(word);

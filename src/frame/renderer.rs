@@ -445,18 +445,12 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The state of an object's draw call.
-    #[inline(always)]
-    pub(super) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
-        self.draws.state(object)
-    }
-
-    /// The same of an object in a slot that knows how many calls have begun up to its own.
+    /// The state of the draw call of an object in a slot that knows how many calls have begun up to its own.
     #[inline(never)]
     pub(super) fn state_of<T>(&self, slot: &CacheSlot<T>) -> Option<&'a DrawState<'a>> {
         match begun_of(slot).checked_sub(1) {
             Some(at) => self.draws.states.get(usize::from(at)),
-            None => self.state(slot.object),
+            None => self.draws.state(slot.object),
         }
     }
 
@@ -465,13 +459,14 @@ impl<'a> View<'a> {
         if !self.ranked {
             return 0;
         }
-        self.state(object).map_or(0, |state| state.priority.into())
+        let state = self.draws.state(object);
+        state.map_or(0, |state| state.priority.into())
     }
 
     /// Whether an object's draw call is dithered.
     #[inline(always)]
     pub(super) fn dithers(&self, object: u16) -> bool {
-        self.has_values && self.state(object).is_some_and(|state| state.dithers)
+        self.has_values && self.draws.state(object).is_some_and(|state| state.dithers)
     }
 
     /// The corners of a triangle.

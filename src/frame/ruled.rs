@@ -175,11 +175,7 @@ pub(super) fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
         let end = start + pixels;
         f(Span { start, end });
         start = end;
-        bits = if skipped + pixels < 32 {
-            bits << (skipped + pixels)
-        } else {
-            0
-        };
+        bits = bits.checked_shl(skipped + pixels).unwrap_or(0);
     }
 }
 
@@ -195,10 +191,8 @@ fn lay_by_pixel<L: Look>(
 ) {
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let mut alphas = [PixelAlpha::OPAQUE; MOST_TESTED];
-    let mut start = run.start;
-    while start < run.end {
-        let end = run.end.min(start + MOST_TESTED as u32);
-        let (from, pixels) = (start, end - start);
+    for from in (run.start..run.end).step_by(MOST_TESTED) {
+        let pixels = (run.end - from).min(MOST_TESTED as u32);
         let all = ..pixels as usize;
         let (Some(new), Some(alphas)) = (colours.get_mut(all), alphas.get_mut(all)) else {
             return;
@@ -236,7 +230,6 @@ fn lay_by_pixel<L: Look>(
             Some(known) => compare(run, state, known, &mut put),
             None => put(run),
         });
-        start = end;
     }
 }
 

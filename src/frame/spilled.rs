@@ -118,7 +118,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// The first behind those of its draw call, up to which so many have begun.
-    #[inline(never)]
     fn behind_call(&self, mut at: Spilled, begun: usize, view: &View<'_>) -> Spilled {
         let next = view.draws.states.get(begun);
         let end = next.map_or(u32::MAX, |next| next.first.into());
@@ -132,15 +131,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     #[inline(always)]
     fn kept(&self, spilled: Spilled) -> Option<u32> {
-        self.cache
-            .far
-            .as_flattened()
-            .get(usize::from(spilled.number))
-            .copied()
+        let kept = self.cache.far.as_flattened();
+        kept.get(usize::from(spilled.number)).copied()
     }
 
     /// How many draw calls began up to its own; 0 where it is known to have no pixels on the line.
-    #[inline(never)]
     fn begun(&self, spilled: Spilled, view: &View<'_>) -> usize {
         match self.kept(spilled) {
             Some(0) => 0,

@@ -124,7 +124,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             } else {
                 self.seen_of(one, out)
             };
-            let has_texels = has_texels::<L>(out.view.state(one.object));
+            let has_texels = has_texels::<L>(out.view.draws.state(one.object));
             let pixels = SpanPixels {
                 all,
                 seen,
@@ -176,7 +176,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            let state = out.view.state(at.object());
+            let state = out.view.draws.state(at.object());
             if let Some(state) = state.filter(|state| state.is_translucent()) {
                 self.count_pane_alone(at.object(), state, out);
             }
@@ -216,7 +216,7 @@ fn count_span<L: Look>(
     let Ruled { drawn, state, .. } = ruled;
     let mut pixels = SpanPixels::default();
     // A slot without values is compared by no state of its own.
-    let has_texels = has_texels::<L>(out.view.state(drawn.object));
+    let has_texels = has_texels::<L>(out.view.draws.state(drawn.object));
     each_part(ruled, out, &mut |first, part| {
         let asked = u32::MAX << (32 - part) & opaque_of::<L>(ruled, first, part, out);
         let mut seen = asked;
@@ -247,11 +247,8 @@ pub(super) fn each_part<L: Look>(
 ) {
     let Span { start, end } = ruled.span;
     for run in ruled.state.cut(out.number, start..end) {
-        let mut first = run.start;
-        while first < run.end {
-            let part = (run.end - first).min(MOST_TESTED as u32);
-            f(first, part);
-            first += part;
+        for first in (run.start..run.end).step_by(MOST_TESTED) {
+            f(first, (run.end - first).min(MOST_TESTED as u32));
         }
     }
 }

@@ -328,7 +328,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             alone = Alone::empty(L::EMPTY);
             set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
-            (alone.drawn(), out.view.state(object))
+            (alone.drawn(), out.view.draws.state(object))
         };
         let Some(state) = state else {
             return;

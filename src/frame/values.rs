@@ -115,7 +115,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.cache.spilled;
         while at.is_some() {
             let object = at.object();
-            if rules(out.view.state(object)) && Stray::of(object, out.view, out.number).is_some() {
+            if rules(out.view.draws.state(object))
+                && Stray::of(object, out.view, out.number).is_some()
+            {
                 return true;
             }
             at = next(self.links, at);
