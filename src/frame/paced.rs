@@ -283,7 +283,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Begins the triangle that is next, if that leaves as much as is said, and it has not ended; whether nobody has to
     /// wait for it.
-    #[inline(always)]
     fn begin_one(
         &mut self,
         pacer: &mut Pacer<L, WORDS>,

@@ -31,9 +31,8 @@ where
     D: ScanoutDma,
 {
     let (needed, have) = (usize::from(scene.screen().width()), indices.len());
-    let Some(indices) = indices.get_mut(..needed) else {
-        return Err(FrameError::Line(LineError::Pixels { needed, have }));
-    };
+    let short = FrameError::Line(LineError::Pixels { needed, have });
+    let indices = indices.get_mut(..needed).ok_or(short)?;
     let mut lines = Lines::new(scene, background, |_, _| {});
     let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [SentBy<D>]| {
         let is_active = lines.draw(renderer, line, indices)?;

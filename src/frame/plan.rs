@@ -4,6 +4,7 @@
 //! the lines to come: each is drawn where nobody has been before, nothing is compared or sorted, and a line that is full
 //! ends there.
 
+use super::near::number_of;
 use super::renderer::{Renderer, View};
 use super::spans::{Drawn, Line, colour_run, columns_of};
 use super::thin::MARGIN;
@@ -18,10 +19,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut left = out.pixels.len() as u32;
         for k in 0..usize::from(self.nearest) {
             let number = self.number_at(k);
-            let Some(slots) = self.cache.slots.get(number >> 5) else {
-                return false;
-            };
-            let slot = &slots[number & 31];
+            let slot = &self.cache.slots.as_flattened()[number];
             let span = columns_of::<L>(slot, out);
             if span.start >= span.end {
                 continue;
@@ -44,7 +42,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(always)]
     pub(super) fn number_at(&self, at: usize) -> usize {
         let key = self.cache.order.as_flattened().get(at).copied();
-        key.unwrap_or_default() as usize & 0xFF
+        number_of::<WORDS>(key.unwrap_or_default())
     }
 
     /// Whether of the slots in order each lies behind all before it, but for a neighbour just before it.
@@ -57,9 +55,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (mut farthest, mut front) = (u32::MAX, u32::MAX);
         let mut before = 0;
         for k in 0..usize::from(self.nearest) {
-            let Some(slot) = self.cache.slots.as_flattened().get(self.number_at(k)) else {
-                return false;
-            };
+            let slot = &self.cache.slots.as_flattened()[self.number_at(k)];
             let Some(triangle) = out.view.triangle_of(slot.object) else {
                 return false;
             };

@@ -37,7 +37,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let Some(key) = key else {
                     break last.map(|key| key >> 24);
                 };
-                self.draw_slot(key as usize & 0xFF, out);
+                self.draw_slot(key, out);
                 left -= 1;
             };
             level = self.level_above(rank, fast, out.view);

@@ -44,7 +44,6 @@ impl<'c> Runs<'c> {
         }
     }
 
-    #[inline(always)]
     pub(super) fn iter(&self) -> impl Iterator<Item = Run> {
         let cells = self.cells.get(..self.count).unwrap_or_default();
         cells.iter().map(|cell| Run {
@@ -55,7 +54,6 @@ impl<'c> Runs<'c> {
 }
 
 /// Words of a mask that a span takes.
-#[inline(always)]
 fn words_of(span: Span) -> u32 {
     (span.end >> 5).saturating_sub(span.start >> 5) + 1
 }
@@ -179,7 +177,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// How many halves of what most spans take that of a slot does.
-    #[inline(always)]
     fn halves(&self, number: usize, fill: Fill) -> u32 {
         let slot = self.cache.slots.as_flattened().get(number);
         let Span { start, end } = self.columns(number);
@@ -187,7 +184,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// What is more where a slot without a plane of depth is compared.
-    #[inline(always)]
     fn if_thin(&self, pacer: &Pacer<L, WORDS>, number: usize) -> u32 {
         let is_thin = self.flags(number).lacks_depth();
         if is_thin { pacer.pace.large.into() } else { 0 }
@@ -230,7 +226,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// The nearest depth of a slot's span, or what stands for it, and its number; the farthest is kept.
-    #[inline(always)]
     fn find_key(&mut self, number: usize, out: &Line<'_, '_, L>) -> u32 {
         let Some((slot, span)) = self.cache.at(number) else {
             return number as u32;
@@ -306,7 +301,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Pays for comparing a span with what comes later and may be seen before it.
-    #[inline(always)]
     fn pay_rivals(
         &self,
         pacer: &mut Pacer<L, WORDS>,

@@ -44,9 +44,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         draw: &Draw<'_, 't, C>,
         sphere: &Sphere,
     ) -> Result<bool, DrawError> {
-        let Some(camera) = &self.camera else {
-            return Err(DrawError::NotBegun);
-        };
+        let camera = self.camera.as_ref().ok_or(DrawError::NotBegun)?;
         if draw.is_volume() || !sphere.is_outside(camera, self.screen, &self.lines, &draw.model) {
             return self.draw(draw).map(|()| true);
         }

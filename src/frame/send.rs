@@ -136,17 +136,13 @@ pub(super) type SentBy<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
 
 /// Sends all lines of `scene`, each as `draw` writes it, which says whether something is active there.
 #[inline(always)]
-pub(super) fn send<'m, L, D, const WORDS: usize>(
+pub(super) fn send<'m, L: Look, D: ScanoutDma, const WORDS: usize>(
     scene: &Scene<'_, '_, L>,
     renderer: &mut Renderer<'m, L, WORDS>,
     pump: &mut Pump<D>,
     lines_per_transfer: u16,
     mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [SentBy<D>]) -> Result<bool, LineError>,
-) -> Result<FrameUse, FrameError<D::Error>>
-where
-    L: Look,
-    D: ScanoutDma,
-{
+) -> Result<FrameUse, FrameError<D::Error>> {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;
     let mut skipped = 0;
     pump.take_stats();

@@ -174,7 +174,6 @@ impl Pile {
     }
 
     /// Finds the panes of a set that are behind each, a bit for each, and ends a stretch before any two cross.
-    #[inline(always)]
     fn find_behind(&self, set: u32, part: &mut Span, behind: &mut [u32; PANES]) {
         let mut rest = set;
         while let Some(i) = take_first(&mut rest) {

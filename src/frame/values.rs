@@ -8,6 +8,7 @@
 
 use super::alone::{Alone, set_up_stray};
 use super::guests::Stray;
+use super::near::number_of;
 use super::renderer::{Renderer, View};
 use super::rival::{deepen, slope_of};
 use super::ruled::{Ruled, draw_ruled};
@@ -142,16 +143,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         waiting
     }
 
-    /// Draws a span in a slot, if it has one.
+    /// Draws the span of the slot of a key, if it has one.
     #[inline(never)]
-    pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
-        let (word, i) = (number >> 5, number & 31);
-        let (Some(slots), Some(spans)) =
-            (self.cache.slots.get_mut(word), self.cache.spans.get(word))
-        else {
-            return;
-        };
-        let (slot, span) = (&mut slots[i], Span::of(spans[i]));
+    pub(super) fn draw_slot(&mut self, key: u32, out: &mut Line<'_, '_, L>) {
+        let number = number_of::<WORDS>(key);
+        let span = Span::of(self.cache.spans.as_flattened()[number]);
+        let slot = &mut self.cache.slots.as_flattened_mut()[number];
         if span.start >= span.end {
             return;
         }
