@@ -21,57 +21,45 @@ struct Part<'a> {
     cells: &'a mut [u32],
 }
 
-/// The run of a rival's columns in a part, with its depth there.
-struct Run<'c> {
-    cells: &'c mut [u32],
-    start: u32,
-    depth: u32,
-    step: u32,
-}
-
 impl Part<'_> {
-    fn run_of(&mut self, rival: Rival) -> Option<Run<'_>> {
-        let Span { start, end } = rival.span.within(self.columns);
+    /// The first column of a span in a part, and the cells from there on.
+    fn run_of(&mut self, span: Span) -> Option<(u32, &mut [u32])> {
+        let Span { start, end } = span.within(self.columns);
         let first = self.columns.start;
         let cells = (start.checked_sub(first)? as usize)..(end.checked_sub(first)? as usize);
-        Some(Run {
-            cells: self.cells.get_mut(cells)?,
-            start,
-            depth: rival.slope.at(start),
-            step: rival.slope.step,
-        })
+        Some((start, self.cells.get_mut(cells)?))
     }
 
     /// Keeps the depths of a rival, where they are nearer.
     #[inline(never)]
     fn deepen(&mut self, rival: Rival) {
-        let Some(run) = self.run_of(rival) else {
+        let Some((start, cells)) = self.run_of(rival.span) else {
             return;
         };
-        let mut depth = run.depth;
-        for cell in run.cells {
+        let mut depth = rival.slope.at(start);
+        for cell in cells {
             rolled();
             *cell = depth.max(*cell);
-            depth = depth.wrapping_add(run.step);
+            depth = depth.wrapping_add(rival.slope.step);
         }
     }
 
     /// Calls `f` with each run of columns in which nobody is nearer than a rival; how many columns these are not.
     #[inline(always)]
     fn each_seen(&mut self, rival: Rival, mut f: impl FnMut(Span)) -> u32 {
-        let Some(run) = self.run_of(rival) else {
+        let Some((mut start, cells)) = self.run_of(rival.span) else {
             return 0;
         };
-        let (mut depth, mut hidden) = (run.depth, 0);
-        let (mut start, mut end) = (run.start, run.start);
-        for &mut cell in run.cells {
+        let (mut depth, mut hidden) = (rival.slope.at(start), 0);
+        let mut end = start;
+        for &mut cell in cells {
             if cell != depth {
                 if start < end {
                     f(Span { start, end });
                 }
                 (start, hidden) = (end + 1, hidden + 1);
             }
-            depth = depth.wrapping_add(run.step);
+            depth = depth.wrapping_add(rival.slope.step);
             end += 1;
         }
         if start < end {
@@ -167,12 +155,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     hidden += usize::from(self.colour_seen(k, rival, part, out));
                 }
             }
-            match stray {
-                Some(stray) if stray.span.meets(part.columns) => {
-                    hidden += usize::from(self.colour_stray(&stray, part, out));
-                }
-                Some(_) => {}
-                None => return hidden,
+            let Some(stray) = stray else {
+                return hidden;
+            };
+            if stray.span.meets(part.columns) {
+                hidden += usize::from(self.colour_stray(&stray, part, out));
             }
         }
     }

@@ -25,7 +25,8 @@ use core::mem::replace;
 /// lowest bits are those of a key.
 #[inline(never)]
 pub(super) fn place_of(view: &View<'_>, object: u16) -> u32 {
-    place(view.rank(object), object)
+    let state = view.ranked.then(|| view.draws.state(object)).flatten();
+    place(state.map_or(0, |state| state.priority.into()), object)
 }
 
 /// The same where the priority is known.

@@ -454,15 +454,6 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The priority of an object's draw call, if the scene is drawn by it.
-    pub(super) fn rank(&self, object: u16) -> u32 {
-        if !self.ranked {
-            return 0;
-        }
-        let state = self.draws.state(object);
-        state.map_or(0, |state| state.priority.into())
-    }
-
     /// Whether an object's draw call is dithered.
     #[inline(always)]
     pub(super) fn dithers(&self, object: u16) -> bool {

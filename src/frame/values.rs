@@ -152,7 +152,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if span.start >= span.end {
             return;
         }
-        let is_compared = self.met && self.over.meets(span.start, span.end);
+        let meets = self.over.meets(span.start, span.end);
+        let is_compared = self.met && meets;
         let has_values = Flags::of(slot).has_values();
         let state = has_values.then(|| out.view.state_of(slot)).flatten();
         let state = state.unwrap_or(&DrawState::EMPTY);
@@ -166,8 +167,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             Known::new(slope, self.depth, &mut self.written)
         });
         if let Some(counter) = &self.counter {
-            let is_alone = !self.over.meets(span.start, span.end);
-            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), !meets, out);
         }
         if !has_values && !is_compared {
             return colour::<L>(drawn, span, out);
@@ -186,12 +186,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
         let (drawn, span) = (alone.drawn(), stray.span);
         let ruled = Ruled { drawn, span, state };
-        let is_compared = self.met && self.over.meets(span.start, span.end);
-        let known =
-            is_compared.then(|| Known::new(stray.slope::<L>(out), self.depth, &mut self.written));
+        let meets = self.over.meets(span.start, span.end);
+        let known = (self.met && meets)
+            .then(|| Known::new(stray.slope::<L>(out), self.depth, &mut self.written));
         if let Some(counter) = &self.counter {
-            let is_alone = !self.over.meets(span.start, span.end);
-            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), !meets, out);
         }
         draw_ruled::<L>(ruled, span, out, known);
     }
