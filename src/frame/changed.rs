@@ -48,15 +48,13 @@ where
         pump.finish()?;
         Ok(pump.stats())
     };
-    match send() {
-        Ok(sent) => Ok(FrameUse::told(scene, renderer, skipped, sent)),
-        Err(error) => {
-            for line in scene.lines().start..end {
-                shown.forget_line(line);
-            }
-            Err(error)
+    let sent = send();
+    if sent.is_err() {
+        for line in scene.lines().start..end {
+            shown.forget_line(line);
         }
     }
+    sent.map(|sent| FrameUse::told(scene, renderer, skipped, sent))
 }
 
 /// The same for the cells of lines that differ. Rectangles that are sent begin and end at edges of cells, whose size

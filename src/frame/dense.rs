@@ -182,9 +182,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         part: &mut Part<'_>,
         out: &mut Line<'_, '_, L>,
     ) -> bool {
-        let key = self.cache.order.as_flattened().get(at).copied();
-        let number = number_of::<WORDS>(key.unwrap_or_default());
-        let drawn = Drawn::of(&self.cache.slots.as_flattened()[number]);
+        let drawn = Drawn::of(&self.cache.slots.as_flattened()[self.number_at(at)]);
         let mask = drawn_in(self.crowded, &mut self.covered, &mut self.written);
         part.each_seen(rival, |run| {
             colour_seen_run::<L>(drawn, rival.span, run, mask, out);

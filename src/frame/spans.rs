@@ -130,11 +130,7 @@ pub(super) fn colour_run<L: Look>(
         return;
     };
     let at = span.place(run.start, out.number);
-    let Drawn {
-        planes,
-        flags,
-        object,
-    } = drawn;
+    let (planes, flags, object) = (drawn.planes, drawn.flags, drawn.object);
     if flags.is_other() {
         return colour_other::<L>(planes, flags, object, at, out.view, out.dither, pixels);
     }
