@@ -31,6 +31,19 @@ pub enum Instruction {
 }
 
 impl Instruction {
+    /// Vertices or indices, where it has some.
+    pub(crate) const fn run(&self) -> Option<Run> {
+        match self {
+            Self::Short(run)
+            | Self::Long(run)
+            | Self::Points(run)
+            | Self::Quads(run)
+            | Self::Table(run)
+            | Self::Indexed(run) => Some(*run),
+            _ => None,
+        }
+    }
+
     /// How many words behind the block it lets pass over.
     pub(crate) const fn reach(&self) -> u32 {
         match self {

@@ -5,7 +5,7 @@
 use super::block::{Flow, Instruction, Run, State};
 use super::error::{ListError, Reason};
 use super::format::VertexFormat;
-use super::header::{Header, Id};
+use super::header::Id;
 use super::reader::{Parsed, read_block};
 use super::words::Words;
 use crate::event::Event;
@@ -153,25 +153,8 @@ pub enum Step {
     Halt(Halt),
 }
 
-/// What vertices that a strip goes on with must have been like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Kept {
-    id: Id,
-    shade: bool,
-    prsp: bool,
-    text: bool,
-}
-
-impl Kept {
-    const fn of(h: Header) -> Self {
-        Self {
-            id: h.id,
-            shade: h.shade,
-            prsp: h.prsp,
-            text: h.text,
-        }
-    }
-}
+/// Bits of the header that a block which goes on with a strip shares with the one before: ID, SHADE, PRSP and TEXT.
+const KEPT: u32 = 0xF000_00E0;
 
 /// Where a list is being read.
 #[derive(Clone, Debug, Default)]
@@ -187,7 +170,8 @@ pub struct Walker {
     /// The end at which a ring's reader met the writer last.
     met: Option<u32>,
     format: VertexFormat,
-    kept: Option<Kept>,
+    /// What vertices that a strip goes on with were like: the bits [`KEPT`] of their header.
+    kept: Option<u32>,
     table: Option<u16>,
 }
 
@@ -325,15 +309,8 @@ impl Walker {
                 return Err(error);
             }
         };
-        let cost = match parsed.instruction {
-            Instruction::Short(r)
-            | Instruction::Long(r)
-            | Instruction::Points(r)
-            | Instruction::Quads(r)
-            | Instruction::Table(r)
-            | Instruction::Indexed(r) => u32::from(r.header.count),
-            _ => 0,
-        };
+        let run = parsed.instruction.run();
+        let cost = run.map_or(0, |run| u32::from(run.header.count));
         if cost > budget.vertices {
             return Ok(Step::Halt(Halt::Budget));
         }
@@ -409,41 +386,29 @@ impl Walker {
         instruction: Instruction,
         next: u32,
     ) -> Result<(), ListError> {
-        match instruction {
-            Instruction::Short(Run { header, .. })
-            | Instruction::Long(Run { header, .. })
-            | Instruction::Points(Run { header, .. })
-            | Instruction::Quads(Run { header, .. }) => {
-                let is_strip = header.id != Id::Points && (header.id != Id::Quads || header.rm);
-                let kept = Kept::of(header);
-                if is_strip && !header.new && self.kept != Some(kept) {
-                    return Err(self.fail(header.id, Reason::Continue));
-                }
-                self.kept = is_strip.then_some(kept);
-            }
-            Instruction::Table(Run { header, .. }) => {
-                self.table = Some(header.count);
-                self.kept = None;
-            }
-            Instruction::Indexed(Run { header, .. }) => {
-                if self.table.is_none() {
+        if let Some(Run { header, .. }) = instruction.run() {
+            let kept = match header.id {
+                Id::Points | Id::Table => None,
+                Id::Quads if !header.rm => None,
+                _ => Some(header.to_word() & KEPT),
+            };
+            match header.id {
+                Id::Table => self.table = Some(header.count),
+                Id::Indexed if self.table.is_none() => {
                     return Err(self.fail(header.id, Reason::NoTable));
                 }
-                let kept = Kept::of(header);
-                if !header.new && self.kept != Some(kept) {
+                _ if kept.is_some() && !header.new && self.kept != kept => {
                     return Err(self.fail(header.id, Reason::Continue));
                 }
-                self.kept = Some(kept);
+                _ => {}
             }
-            Instruction::State(State::Format(format)) => {
-                self.format = format;
-                self.kept = None;
-            }
-            _ => {
-                let (left, value) = (words.end().wrapping_sub(next), instruction.reach());
-                if words.room().is_none() && value > left {
-                    return Err(self.fail(Id::State, Reason::Value { word: 6, value }));
-                }
+            self.kept = kept;
+        } else if let Instruction::State(State::Format(format)) = instruction {
+            (self.format, self.kept) = (format, None);
+        } else {
+            let (left, value) = (words.end().wrapping_sub(next), instruction.reach());
+            if words.room().is_none() && value > left {
+                return Err(self.fail(Id::State, Reason::Value { word: 6, value }));
             }
         }
         Ok(())

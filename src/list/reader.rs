@@ -59,6 +59,9 @@ pub fn read_block<'w>(
     read.map_err(|reason| fail(Some(header.id), reason))
 }
 
+/// Words behind the header that each kind of STATE has, without those of fields, texels, colours and pixels.
+const STATE_WORDS: [u8; 14] = [4, 0, 13, 3, 0, 3, 12, 2, 2, 1, 3, 6, 0, 6];
+
 /// A block whose header was read.
 struct Block<W> {
     words: W,
@@ -77,12 +80,23 @@ impl<'w, W: Words<'w>> Block<W> {
         self.word(n) as i32
     }
 
-    /// Refuses the word `n`.
-    fn bad<T>(&self, n: u32) -> Result<T, Reason> {
-        Err(Reason::Value {
-            word: n,
-            value: self.word(n),
-        })
+    /// The lower and the upper half of the word `n`.
+    fn halves(&self, n: u32) -> [u16; 2] {
+        [self.word(n) as u16, (self.word(n) >> 16) as u16]
+    }
+
+    /// Why the word `word` is refused.
+    fn bad(&self, word: u32) -> Reason {
+        let value = self.word(word);
+        Reason::Value { word, value }
+    }
+
+    /// Refuses the word `n`, unless it is as it may be.
+    fn require(&self, n: u32, is_good: bool) -> Result<(), Reason> {
+        match is_good {
+            true => Ok(()),
+            false => Err(self.bad(n)),
+        }
     }
 
     /// Whether `data` words behind the header are there; the block's length.
@@ -131,31 +145,23 @@ impl<'w, W: Words<'w>> Block<W> {
     }
 
     fn indexed(&self) -> Result<Parsed, Reason> {
-        let Header {
-            count,
-            low,
-            new,
-            rm,
-            ..
-        } = self.header;
-        let separate = low & Header::SEPARATE != 0;
-        if separate && (count % 3 != 0 || rm || !new) {
-            return Err(if count % 3 != 0 {
-                Reason::Count(count)
-            } else {
-                Reason::Reserved(self.header.to_word())
-            });
+        let header = self.header;
+        let separate = header.low & Header::SEPARATE != 0;
+        if separate && header.count % 3 != 0 {
+            return Err(Reason::Count(header.count));
         }
-        let a_word = if low & Header::WIDE != 0 { 2 } else { 4 };
-        self.run(u32::from(count).div_ceil(a_word))
+        if separate && (header.rm || !header.new) {
+            return Err(Reason::Reserved(header.to_word()));
+        }
+        let a_word = if header.low & Header::WIDE != 0 { 2 } else { 4 };
+        self.run(u32::from(header.count).div_ceil(a_word))
     }
 
     /// A block of which only its length is known.
     fn foreign(&self) -> Result<Parsed, Reason> {
         let words = self.length(u32::from(self.header.count))?;
         let instruction = match self.header.id {
-            Id::Master if words > 1 => Instruction::Master(self.word(1)),
-            Id::Master => Instruction::Master(0),
+            Id::Master => Instruction::Master(if words > 1 { self.word(1) } else { 0 }),
             _ => Instruction::Later,
         };
         Ok(Parsed { instruction, words })
@@ -163,85 +169,79 @@ impl<'w, W: Words<'w>> Block<W> {
 
     fn flow(&self) -> Result<Parsed, Reason> {
         let (what, argument) = (self.header.what(), self.header.argument());
-        let data = match what {
-            0..=3 => 0,
-            4..=6 => 1,
+        let (at, number) = (self.word(1), argument);
+        let (flow, data) = match what {
+            0 => (Flow::End, 0),
+            1 => (Flow::Pause, 0),
+            2 => (Flow::Sync, 0),
+            3 => (Flow::Interrupt(argument), 0),
+            4 => (Flow::JumpRelative(self.signed(1)), 1),
+            5 => (Flow::Jump(at), 1),
+            6 => (Flow::LoadTexture { number, at }, 1),
             kind => return Err(Reason::Kind(kind)),
         };
         if !matches!(what, 3 | 6) && argument != 0 {
             return Err(Reason::Count(self.header.count));
         }
-        let words = self.length(data)?;
-        let flow = match what {
-            0 => Flow::End,
-            1 => Flow::Pause,
-            2 => Flow::Sync,
-            3 => Flow::Interrupt(argument),
-            4 => Flow::JumpRelative(self.signed(1)),
-            5 => Flow::Jump(self.word(1)),
-            _ => Flow::LoadTexture {
-                number: argument,
-                at: self.word(1),
-            },
-        };
         Ok(Parsed {
             instruction: Instruction::Flow(flow),
-            words,
+            words: self.length(data)?,
         })
     }
 
     fn state(&self) -> Result<Parsed, Reason> {
-        let number = self.header.argument();
-        let what = self.header.what();
-        if !matches!(what, 1 | 3 | 4 | 8 | 9 | 12) && number != 0 {
+        let (what, number) = (self.header.what(), self.header.argument());
+        let is_argument = match what {
+            1 | 3 | 4 | 8 | 9 => true,
+            12 => number != 0,
+            _ => number == 0,
+        };
+        if !is_argument {
             return Err(Reason::Count(self.header.count));
         }
-        let (state, words) = match what {
-            0 => (State::Head(self.head()?), 5),
-            1 => {
-                let words = self.length(u32::from(number).div_ceil(4))?;
-                let byte = |n: u32| (self.word(1 + n / 4) >> (8 * (n % 4))) as u8;
-                let format = VertexFormat::from_bytes(usize::from(number), (0..).map(byte))?;
-                (State::Format(format), words)
-            }
-            2 => (State::Matrix(self.matrix()?), 14),
+        let least = STATE_WORDS.get(usize::from(what));
+        let least = u32::from(*least.ok_or(Reason::Kind(what))?);
+        self.length(least)?;
+        let state = match what {
+            0 => State::Head(self.head()?),
+            1 => State::Format(self.format(number)?),
+            2 => State::Matrix(self.matrix()?),
             3 => {
                 let light = self.light()?;
-                (State::Light { number, light }, 4)
+                State::Light { number, light }
             }
-            4 => (State::LightOff { number }, 1),
-            5 => (State::Material(self.material()?), 4),
-            6 => (State::Camera(self.camera()?), 13),
-            7 => (State::Window(self.window()?), 3),
-            8 => {
-                let texture = self.texture(number)?;
-                (State::Texture(texture), 3 + texture.words())
-            }
-            9 => {
-                let palette = self.palette(number)?;
-                (State::Palette(palette), 2 + u32::from(palette.count))
-            }
-            10 => {
-                let overlay = self.overlay()?;
-                (State::Overlay(overlay), 4 + overlay.words())
-            }
-            11 => (State::Bounds(self.bounds()?), 7),
-            12 if number == 0 => return Err(Reason::Count(self.header.count)),
-            12 => (State::PointSize(number), 1),
-            13 => (State::Cone(self.cone()?), 7),
-            kind => return Err(Reason::Kind(kind)),
+            4 => State::LightOff { number },
+            5 => State::Material(self.material()?),
+            6 => State::Camera(self.camera()?),
+            7 => State::Window(self.window()?),
+            8 => State::Texture(self.texture(number)?),
+            9 => State::Palette(self.palette(number)?),
+            10 => State::Overlay(self.overlay()?),
+            11 => State::Bounds(self.bounds()?),
+            12 => State::PointSize(number),
+            _ => State::Cone(self.cone()?),
+        };
+        let more = match state {
+            State::Format(_) => u32::from(number).div_ceil(4),
+            State::Texture(texture) => texture.words(),
+            State::Palette(palette) => palette.count.into(),
+            State::Overlay(overlay) => overlay.words(),
+            _ => 0,
         };
         Ok(Parsed {
             instruction: Instruction::State(state),
-            words: self.length(words - 1)?,
+            words: self.length(least + more)?,
         })
     }
 
+    fn format(&self, count: u8) -> Result<VertexFormat, Reason> {
+        self.length(u32::from(count).div_ceil(4))?;
+        let byte = |n: u32| (self.word(1 + n / 4) >> (8 * (n % 4))) as u8;
+        VertexFormat::from_bytes(count.into(), (0..).map(byte))
+    }
+
     fn head(&self) -> Result<Head, Reason> {
-        self.length(4)?;
-        if self.word(1) != Head::MAGIC {
-            return self.bad(1);
-        }
+        self.require(1, self.word(1) == Head::MAGIC)?;
         let head = Head {
             words: self.word(2),
             table: self.word(3),
@@ -257,62 +257,48 @@ impl<'w, W: Words<'w>> Block<W> {
 
     /// An exponent as blocks of fixed point may have it.
     fn exponent(&self, n: u32, value: i16) -> Result<i16, Reason> {
-        if (-128..=96).contains(&value) {
-            Ok(value)
-        } else {
-            self.bad(n)
-        }
+        self.require(n, (-128..=96).contains(&value))?;
+        Ok(value)
     }
 
     fn mantissas<const N: usize>(&self, first: u32) -> Result<[i32; N], Reason> {
         let mut mantissa = [0; N];
         for (n, m) in (first..).zip(&mut mantissa) {
             *m = self.signed(n);
-            if m.unsigned_abs() >> 30 != 0 {
-                return self.bad(n);
-            }
+            self.require(n, m.unsigned_abs() >> 30 == 0)?;
         }
         Ok(mantissa)
     }
 
     fn matrix(&self) -> Result<Matrix, Reason> {
-        self.length(13)?;
-        let exponents = self.word(10);
+        let [linear, offset] = self.halves(10);
         Ok(Matrix {
             linear: self.mantissas(1)?,
-            linear_exponent: self.exponent(10, exponents as i16)?,
+            linear_exponent: self.exponent(10, linear as i16)?,
             offset: self.mantissas(11)?,
-            offset_exponent: self.exponent(10, (exponents >> 16) as i16)?,
+            offset_exponent: self.exponent(10, offset as i16)?,
         })
     }
 
     fn light(&self) -> Result<LightWords, Reason> {
-        self.length(3)?;
-        let (xy, za) = (self.word(1), self.word(2));
+        let ([x, y], [z, ambient]) = (self.halves(1), self.halves(2));
         let [r, g, b, none] = self.word(3).to_le_bytes();
-        if none != 0 {
-            return self.bad(3);
-        }
-        let ambient = (za >> 16) as u16;
-        if ambient > 1 << 15 {
-            return self.bad(2);
-        }
+        self.require(3, none == 0)?;
+        self.require(2, ambient <= 1 << 15)?;
         Ok(LightWords {
-            direction: [xy as i16, (xy >> 16) as i16, za as i16],
+            direction: [x, y, z].map(|part| part as i16),
             ambient,
             colour: [r, g, b],
         })
     }
 
     fn material(&self) -> Result<Material, Reason> {
-        self.length(3)?;
         let [r, g, b, opacity] = self.word(1).to_le_bytes();
         let [sr, sg, sb, exponent] = self.word(2).to_le_bytes();
         let flags = self.word(3);
         let textured = flags & 4 != 0;
-        if flags & !0xFF07 != 0 || (!textured && flags & 0xFF00 != 0) {
-            return self.bad(3);
-        }
+        let known = if textured { 0xFF07 } else { 7 };
+        self.require(3, flags & !known == 0)?;
         Ok(Material {
             diffuse: [r, g, b],
             opacity,
@@ -325,12 +311,9 @@ impl<'w, W: Words<'w>> Block<W> {
     }
 
     fn camera(&self) -> Result<CameraWords, Reason> {
-        self.length(12)?;
         let float = |n| f32::from_bits(self.word(n));
         for n in 1..=12 {
-            if !float(n).is_finite() {
-                return self.bad(n);
-            }
+            self.require(n, float(n).is_finite())?;
         }
         let vector = |n| [float(n), float(n + 1), float(n + 2)];
         Ok(CameraWords {
@@ -344,29 +327,22 @@ impl<'w, W: Words<'w>> Block<W> {
     }
 
     fn window(&self) -> Result<Window, Reason> {
-        self.length(2)?;
-        let (from, to) = (self.word(1), self.word(2));
-        let window = Window {
-            left: from as u16,
-            top: (from >> 16) as u16,
-            right: to as u16,
-            bottom: (to >> 16) as u16,
-        };
-        if window.left >= window.right || window.top >= window.bottom {
-            return self.bad(2);
-        }
-        Ok(window)
+        let ([left, top], [right, bottom]) = (self.halves(1), self.halves(2));
+        self.require(2, left < right && top < bottom)?;
+        Ok(Window {
+            left,
+            top,
+            right,
+            bottom,
+        })
     }
 
     fn form(&self, n: u32, code: u32) -> Result<TexelForm, Reason> {
-        match TexelForm::ALL.get(code as usize) {
-            Some(form) => Ok(*form),
-            None => self.bad(n),
-        }
+        let form = TexelForm::ALL.get(code as usize);
+        form.copied().ok_or_else(|| self.bad(n))
     }
 
     fn texture(&self, number: u8) -> Result<Texture, Reason> {
-        self.length(2)?;
         let word = self.word(1);
         let texture = Texture {
             number,
@@ -378,75 +354,59 @@ impl<'w, W: Words<'w>> Block<W> {
             clamped: word >> 24 & 1 != 0,
             at: self.at.wrapping_add(3),
         };
-        if texture.log_width > 10 || texture.log_height > 10 || word & 0xFE00_C000 != 0 {
-            return self.bad(1);
-        }
-        if self.word(2) != texture.words() {
-            return self.bad(2);
-        }
+        let sides = texture.log_width.max(texture.log_height);
+        self.require(1, sides <= 10 && word & 0xFE00_C000 == 0)?;
+        self.require(2, self.word(2) == texture.words())?;
         Ok(texture)
     }
 
     fn palette(&self, number: u8) -> Result<Palette, Reason> {
-        self.length(1)?;
-        match self.word(1) {
-            count @ 1..=256 => Ok(Palette {
-                number,
-                count: count as u16,
-                at: self.at.wrapping_add(2),
-            }),
-            _ => self.bad(1),
-        }
+        let count = self.word(1);
+        self.require(1, (1..=256).contains(&count))?;
+        Ok(Palette {
+            number,
+            count: count as u16,
+            at: self.at.wrapping_add(2),
+        })
     }
 
     fn overlay(&self) -> Result<Overlay, Reason> {
-        self.length(3)?;
-        let (place, size, word) = (self.word(1), self.word(2), self.word(3));
-        let overlay = Overlay {
-            left: place as u16,
-            top: (place >> 16) as u16,
-            width: size as u16,
-            height: (size >> 16) as u16,
-            form: self.form(3, word & 15)?,
+        let ([left, top], [width, height]) = (self.halves(1), self.halves(2));
+        let word = self.word(3);
+        let form = self.form(3, word & 15)?;
+        let sides = 1..=1024;
+        self.require(2, sides.contains(&width) && sides.contains(&height))?;
+        self.require(3, word & !0xFF1F == 0)?;
+        Ok(Overlay {
+            left,
+            top,
+            width,
+            height,
+            form,
             additive: word >> 4 & 1 != 0,
             palette: (word >> 8) as u8,
             at: self.at.wrapping_add(4),
-        };
-        let sides = 1..=1024;
-        if !sides.contains(&overlay.width) || !sides.contains(&overlay.height) {
-            return self.bad(2);
-        }
-        if word & !0xFF1F != 0 {
-            return self.bad(3);
-        }
-        Ok(overlay)
+        })
     }
 
     fn bounds(&self) -> Result<Bounds, Reason> {
-        self.length(6)?;
         let [x, y, z, radius] = self.mantissas(1)?;
-        if radius < 0 {
-            return self.bad(4);
-        }
-        let exponent = match i16::try_from(self.signed(5)) {
-            Ok(exponent) => self.exponent(5, exponent)?,
-            Err(_) => return self.bad(5),
-        };
+        self.require(4, radius >= 0)?;
+        // What takes more bits is out of range as well.
+        let exponent = i16::try_from(self.signed(5)).unwrap_or(i16::MAX);
         Ok(Bounds {
             centre: [x, y, z],
             radius,
-            exponent,
+            exponent: self.exponent(5, exponent)?,
             words: self.word(6),
         })
     }
 
     fn cone(&self) -> Result<Cone, Reason> {
-        self.length(6)?;
-        let halves = |n: u32| [self.word(n) as u16, (self.word(n) >> 16) as u16];
-        let ([x, y], [z, spread]) = (halves(4), halves(5));
+        let ([x, y], [z, spread]) = (self.halves(4), self.halves(5));
         Ok(Cone {
-            apex: [self.signed(1), self.signed(2), self.signed(3)],
-            axis: [x as i16, y as i16, z as i16],
+            apex: [1, 2, 3].map(|n| self.signed(n)),
+            axis: [x, y, z].map(|part| part as i16),
             spread,
             words: self.word(6),
         })
