@@ -101,7 +101,7 @@ pub use overlays::OverlaySlot;
 pub(crate) use overlays::OverlaySlots;
 pub use reader::{Parsed, read_block};
 pub use strip::Strip;
-pub(crate) use texels::{NoTexture, Pair};
+pub(crate) use texels::Pair;
 pub use texels::{Texels, TextureSlot, TextureSlots};
 pub(crate) use vertex::colour;
 pub use vertex::{Layout, Place, Slot};

@@ -3,6 +3,7 @@
 //! A TEXTURE or PALETTE block gives a number to texels or colours; both are kept in slots that the application lends.
 
 use super::block::{Palette, TexelForm, Texture};
+use super::error::Reason;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 /// Pixels or texels in the words of a list.
@@ -126,15 +127,6 @@ impl TextureSlot {
     }
 }
 
-/// Why there is no texture to draw with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoTexture {
-    /// There is none of this number.
-    Missing,
-    /// The palette that it names is not there.
-    Palette,
-}
-
 /// A texture and its palette, as a number names them now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pair {
@@ -197,38 +189,30 @@ pub struct TextureSlots<'m>(
 impl<'m> TextureSlots<'m> {
     /// Forgets everything.
     pub fn clear(self) {
-        self.0
-            .iter()
-            .for_each(|s| s.name.store(0, Ordering::Relaxed));
+        for slot in self.0 {
+            slot.name.store(0, Ordering::Relaxed);
+        }
     }
 
-    /// The first slot whose words satisfy `is`.
-    fn find(self, is: impl Fn(u32, &TextureSlot) -> bool) -> Option<(usize, &'m TextureSlot)> {
-        let fits = |s: &&TextureSlot| is(s.name.load(Ordering::Relaxed), s);
-        let index = self.0.iter().position(|s| fits(&s))?;
-        Some((index, self.0.get(index)?))
+    /// The first slot whose name satisfies `is`.
+    fn find(self, is: impl Fn(u32) -> bool) -> Option<&'m TextureSlot> {
+        let mut slots = self.0.iter();
+        slots.find(|slot| is(slot.name.load(Ordering::Relaxed)))
     }
 
     /// The slot of a kind with a number.
     fn numbered(self, kind: u32, number: u8) -> Option<&'m TextureSlot> {
-        let is = |name: u32, _: &TextureSlot| name & (KIND | 0xFF) == kind | u32::from(number);
-        self.find(is).map(|(_, slot)| slot)
-    }
-
-    fn free(self) -> Option<(usize, &'m TextureSlot)> {
-        self.find(|name, _| name == 0)
+        self.find(|name| name & (KIND | 0xFF) == kind | u32::from(number))
     }
 
     fn define(self, name: u32, at: u32) -> bool {
         let known = self.numbered(name & KIND, name as u8);
-        match known.or_else(|| self.free().map(|(_, slot)| slot)) {
-            Some(slot) => {
-                slot.at.store(at, Ordering::Relaxed);
-                slot.name.store(name, Ordering::Relaxed);
-                true
-            }
-            None => false,
+        let slot = known.or_else(|| self.find(|name| name == 0));
+        if let Some(slot) = slot {
+            slot.at.store(at, Ordering::Relaxed);
+            slot.name.store(name, Ordering::Relaxed);
         }
+        slot.is_some()
     }
 
     /// Gives a texture its number; `false` where no slot is free.
@@ -269,13 +253,17 @@ impl<'m> TextureSlots<'m> {
     /// The texture of a number, and its palette.
     ///
     /// # Errors
-    /// [`NoTexture::Missing`], of the texture; [`NoTexture::Palette`].
-    pub(crate) fn pair(self, number: u8) -> Result<Pair, NoTexture> {
-        let texture = self.numbered(TEXTURE, number).ok_or(NoTexture::Missing)?;
+    /// [`Reason::NoTexture`] and [`Reason::NoPalette`].
+    pub(crate) fn pair(self, number: u8) -> Result<Pair, Reason> {
+        let texture = self.numbered(TEXTURE, number);
+        let texture = texture.ok_or(Reason::NoTexture(number))?;
         let name = texture.name.load(Ordering::Relaxed);
-        let form = form_of(name);
+        let form = form_of_code(name >> 16 & 15);
         let (colours, count) = match form.is_indexed() {
-            true => self.colours((name >> 21) as u8).ok_or(NoTexture::Palette)?,
+            true => {
+                let colours = self.colours((name >> 21) as u8);
+                colours.ok_or(Reason::NoPalette(number))?
+            }
             false => (0, 0),
         };
         let at = texture.at.load(Ordering::Relaxed);
@@ -291,10 +279,6 @@ impl<'m> TextureSlots<'m> {
             count,
         })
     }
-}
-
-fn form_of(name: u32) -> TexelForm {
-    form_of_code(name >> 16 & 15)
 }
 
 /// Of a code that was put somewhere as that of a form.

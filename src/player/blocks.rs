@@ -1,17 +1,16 @@
 //! Blocks of a list, one by one: what each does to the draw call, and what is refused.
 
-use super::gather::Refusal;
 use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
-use super::textures::{Asked, Listed};
+use super::textures::Listed;
 use crate::geometry::{Affine, Camera, Coordinate, Eye, Meshlet, Sphere};
 use crate::list::{
     Bounds, Cone, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
-    NoTexture, Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
+    Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
-use crate::scene::{Scissor, Shadow};
+use crate::scene::Shadow;
 
 impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     /// Does one block.
@@ -23,29 +22,15 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     ) -> Result<Step, ListError> {
         self.counts.blocks = self.counts.blocks.saturating_add(1);
         let (id, done) = match instruction {
-            Instruction::Points(run) | Instruction::Long(run)
-                if matches!(self.state.draw.shadow, Some(Shadow::Volume(_))) =>
-            {
-                (run.header.id, Err(Reason::Missing(Missing::Shadows)))
-            }
             Instruction::State(state) => (Id::State, self.change(words, state, stage)),
             Instruction::Flow(Flow::LoadTexture { number, at }) => {
                 (Id::Flow, self.load(words, number, at, stage))
             }
-            Instruction::Short(run)
-            | Instruction::Quads(run)
-            | Instruction::Points(run)
-            | Instruction::Table(run)
-            | Instruction::Indexed(run) => {
-                (run.header.id, self.take(words, instruction, run, stage))
-            }
-            Instruction::Long(run) => (
-                Id::Long,
-                self.take_long(words, run, stage)
-                    .map(|()| Step::Do(instruction)),
-            ),
-            // The walker keeps the others.
-            _ => (Id::Later, Ok(Step::Passed)),
+            _ => match instruction.run() {
+                Some(run) => (run.header.id, self.take(words, run, stage)),
+                // The walker keeps the others.
+                None => (Id::Later, Ok(Step::Passed)),
+            },
         };
         done.map_err(|reason| self.walker.fail(id, reason))
     }
@@ -54,15 +39,20 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     fn take(
         &mut self,
         words: impl Words<'t>,
-        instruction: Instruction,
         run: Run,
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<Step, Reason> {
-        if self.state.is_stale {
-            self.find_texture(words)?;
+        let id = run.header.id;
+        let is_volume = matches!(self.state.draw.shadow, Some(Shadow::Volume(_)));
+        if is_volume && matches!(id, Id::Points | Id::Long) {
+            return Err(Reason::Missing(Missing::Shadows));
         }
+        if id == Id::Long {
+            return self.take_long(words, run, stage);
+        }
+        self.find_texture(words)?;
         let format = self.walker.format();
-        if run.header.id != Id::Indexed {
+        if id != Id::Indexed {
             let layout = Layout::new(format, run.header);
             if self.state.draw.lamps.is_some() && layout.colour.is_some() {
                 return Err(Reason::Missing(Missing::LightAtVertices));
@@ -74,18 +64,12 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
             .lit_by(self.lights.as_deref());
         let (gather, point_size) = (&mut self.gather, self.state.point_size);
-        let done = drawer.gather(self.casts.as_mut(), |out| match instruction {
-            Instruction::Table(run) => gather.table(words, format, run, out),
-            Instruction::Indexed(run) => gather.indexed(words, run, out),
+        let done = drawer.gather(self.casts.as_mut(), |out| match id {
+            Id::Table => gather.table(words, format, run, out),
+            Id::Indexed => gather.indexed(words, run, out),
             _ => gather.run(words, format, run, point_size, out),
         })?;
-        match done {
-            Ok(()) => Ok(Step::Do(instruction)),
-            Err(Refusal::Vertices | Refusal::Table) => Err(Reason::Lent(Lent::Vertices)),
-            Err(Refusal::Indices) => Err(Reason::Lent(Lent::Indices)),
-            Err(Refusal::Fine) => Err(Reason::Missing(Missing::FinePlaces)),
-            Err(Refusal::Index { index, count }) => Err(Reason::Index { index, count }),
-        }
+        done.map(|()| Step::Passed)
     }
 
     /// Draws vertices that were set up beforehand; what was gathered before them first.
@@ -94,15 +78,13 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         words: impl Words<'t>,
         run: Run,
         stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<(), Reason> {
+    ) -> Result<Step, Reason> {
         if self.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
         self.draw(words, stage)?;
         self.gather.pause();
-        if self.state.is_stale {
-            self.find_texture(words)?;
-        }
+        self.find_texture(words)?;
         let offset = self.walker.offset();
         let count = u32::from(run.header.count);
         self.counts.vertices = self.counts.vertices.saturating_add(count);
@@ -114,7 +96,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
                 let alphas = if has_alphas { alphas } else { &[] };
                 drawer.draw_long(triangles, alphas, run.header);
             });
-        drawer.done()
+        drawer.done().map(|()| Step::Passed)
     }
 
     /// Draws what was gathered.
@@ -139,29 +121,25 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     }
 
     /// The texture that the material names: of the settings, or of the list with the palette that it names now.
+    #[inline]
     fn find_texture(&mut self, words: impl Words<'t>) -> Result<(), Reason> {
-        self.state.is_stale = false;
-        self.state.texture = None;
-        if !L::TEXTURED {
+        if !core::mem::take(&mut self.state.is_stale) {
             return Ok(());
         }
-        let Some(number) = self.state.material.texture else {
+        self.state.texture = None;
+        let Some(number) = self.state.material.texture.filter(|_| L::TEXTURED) else {
             return Ok(());
         };
         if let Some(Some(texture)) = self.settings.textures.get(usize::from(number)) {
             self.state.texture = Some(Listed::own(texture));
             return Ok(());
         }
-        let pair = self.names.pair(number).map_err(|none| match none {
-            NoTexture::Palette => Reason::NoPalette(number),
-            _ => Reason::NoTexture(number),
-        })?;
-        let asked = Asked {
-            pair,
-            dithers: self.state.draw.dither,
-            sampling: self.settings.sampling,
-        };
-        self.state.texture = Some(self.shelf.texture::<L::Pixel>(words, asked)?);
+        let pair = self.names.pair(number)?;
+        let (dithers, sampling) = (self.state.draw.dither, self.settings.sampling);
+        let texture = self
+            .shelf
+            .texture::<L::Pixel>(words, pair, dithers, sampling)?;
+        self.state.texture = Some(texture);
         Ok(())
     }
 
@@ -243,23 +221,16 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<Step, Reason> {
         match state {
-            State::Head(_) | State::Format(_) => return Ok(Step::Passed),
-            State::Bounds(bounds) => {
-                self.skip(words, &bounds, stage);
-                return Ok(Step::Passed);
-            }
-            State::Cone(cone) => {
-                self.skip_behind(words, &cone, stage);
-                return Ok(Step::Passed);
-            }
+            State::Head(_) | State::Format(_) | State::Bounds(_) | State::Cone(_) => {}
             _ => self.draw(words, stage)?,
         }
         match state {
+            State::Head(_) | State::Format(_) => {}
+            State::Bounds(bounds) => self.skip(words, &bounds, stage),
+            State::Cone(cone) => self.skip_behind(words, &cone, stage),
             State::Matrix(m) => self.state.place(Some(Affine::from(&m)), &self.settings),
-            State::Light { number, light } => self.light(number, light)?,
-            State::LightOff { number } => {
-                lights::set(self.lights.as_deref_mut(), &mut self.state, number, None)?;
-            }
+            State::Light { number, light } => self.light(number, Some(light))?,
+            State::LightOff { number } => self.light(number, None)?,
             State::Material(material) => self.material(material)?,
             State::Camera(_) if !self.settings.camera => return Ok(Step::Violation),
             State::Camera(camera) => {
@@ -281,7 +252,6 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             }
             State::Overlay(overlay) => self.overlay(words, &overlay)?,
             State::PointSize(size) => self.state.point_size = size,
-            State::Head(_) | State::Format(_) | State::Bounds(_) | State::Cone(_) => {}
         }
         Ok(Step::Passed)
     }
@@ -303,16 +273,11 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         is_kept.then_some(()).ok_or(Reason::Lent(Lent::Overlays))
     }
 
-    fn light(&mut self, number: u8, light: LightWords) -> Result<(), Reason> {
-        if self.state.draw.lamps.is_some() {
+    fn light(&mut self, number: u8, light: Option<LightWords>) -> Result<(), Reason> {
+        if light.is_some() && self.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
-        lights::set(
-            self.lights.as_deref_mut(),
-            &mut self.state,
-            number,
-            Some(light),
-        )
+        lights::set(self.lights.as_deref_mut(), &mut self.state, number, light)
     }
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {
@@ -337,8 +302,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         if self.settings.draw.scissor.is_some() && window != all {
             return Err(Reason::Missing(Missing::SecondScissor));
         }
-        let asked = Scissor::inside(window.left..window.right, window.top..window.bottom);
-        (self.state).cut(&self.settings, Some(asked).filter(|_| window != all));
+        (self.state).cut(&self.settings, Some(window).filter(|_| window != all));
         Ok(Step::Passed)
     }
 }

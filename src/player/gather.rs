@@ -19,8 +19,9 @@ mod table;
 mod vertices;
 
 use crate::geometry::{Coordinate, Faces, Mesh, QuadSplit};
-use crate::list::{Place, Slot, Strip, Words};
-pub(crate) use places::{Places, texels};
+use crate::list::{Place, Reason, Slot, Strip, Words};
+use core::ops::Range;
+pub(crate) use places::texels;
 
 /// Memory in which vertices are unpacked.
 pub(crate) struct Unpacked<'m, C> {
@@ -106,30 +107,12 @@ enum RunFaces {
     Points(u8),
 }
 
-/// Why vertices or faces are not gathered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Refusal {
-    /// There is too little memory for its vertices.
-    Vertices,
-    /// There is too little memory for the indices of one face.
-    Indices,
-    /// Its places are finer than the coordinates of meshes.
-    Fine,
-    /// Its table was refused.
-    Table,
-    /// An index that the table does not have.
-    Index {
-        index: u16,
-        /// Vertices of the table.
-        count: u16,
-    },
-}
-
 /// A mesh that was gathered.
 pub(crate) struct Gathered<'a, C> {
     pub(crate) mesh: Mesh<'a, C>,
-    /// The places of its vertices on the texture that is drawn with.
-    pub(crate) places: Places<'a>,
+    /// The places of its vertices on the texture that is drawn with, in texels with 8 fraction bits, if there are any; why
+    /// there are none where they are lacking.
+    pub(crate) places: Result<Option<&'a [[i32; 2]]>, Reason>,
     /// The alphas of its vertices, if there are any.
     pub(crate) alphas: &'a [u8],
     /// Whether they are to be exact.
@@ -249,8 +232,8 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
     fn gathered<'s, 'w: 's>(
         &'s self,
         words: impl Words<'w>,
-        run: core::ops::Range<usize>,
-        placed: places::Placed,
+        run: Range<usize>,
+        placed: Result<Option<Range<usize>>, Reason>,
     ) -> Option<Gathered<'s, C>> {
         let m = &self.memory;
         let indices = m.indices.get(..self.indices).unwrap_or(&[]);
@@ -291,7 +274,7 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
         };
         drawn.then(|| Gathered {
             mesh,
-            places: placed.of(m.places),
+            places: placed.map(|range| m.places.get(range?)),
             alphas: alphas.unwrap_or(&[]),
             prsp,
             points,

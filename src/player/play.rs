@@ -366,7 +366,6 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     ) -> Result<Halt, ListError> {
         self.fits().map_err(|reason| self.unfit(reason))?;
         let begin = self.walker.clone();
-        self.walker = Walker::new();
         self.walker.command(ListCommand::Start(begin.position()));
         self.reset();
         let mut stage = Stage {
@@ -376,8 +375,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         };
         let done = loop {
             match self.step(words, &mut budget, &mut stage) {
-                Ok(None) => {}
-                Ok(Some(Halt::Sync)) => {}
+                Ok(None | Some(Halt::Sync)) => {}
                 Ok(Some(Halt::Paused)) => self.walker.command(ListCommand::Resume),
                 Ok(Some(halt)) => break Ok(halt),
                 Err(error) => break Err(error),

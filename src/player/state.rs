@@ -1,6 +1,6 @@
 //! The draw call that blocks of state change.
 
-use super::gather::{Gathered, Out, Places};
+use super::gather::{Gathered, Out};
 use super::lights;
 use super::play::Stage;
 use super::shadows::Casts;
@@ -8,7 +8,7 @@ use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, Notice};
 use crate::geometry::{Affine, Coordinate, Cull, Eye, Light, ShadowLight};
-use crate::list::{Header, Lent, Material, Missing, Place, Reason};
+use crate::list::{Header, Lent, Material, Missing, Place, Reason, Window};
 use crate::look::{Look, check_blend};
 use crate::scene::{
     Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
@@ -102,11 +102,10 @@ impl<'m, 't> State<'m, 't> {
     }
 
     /// The scissor from now on: the window that was asked for, or else what is granted.
-    pub(super) fn cut(&mut self, settings: &PlayerSettings<'_, '_>, scissor: Option<Scissor>) {
-        let granted = settings
-            .window
-            .map(|w| Scissor::inside(w.left..w.right, w.top..w.bottom));
-        self.draw.scissor = scissor.or(granted).or(settings.draw.scissor);
+    pub(super) fn cut(&mut self, settings: &PlayerSettings<'_, '_>, asked: Option<Window>) {
+        let window = asked.or(settings.window);
+        let scissor = window.map(|w| Scissor::inside(w.left..w.right, w.top..w.bottom));
+        self.draw.scissor = scissor.or(settings.draw.scissor);
     }
 }
 
@@ -202,28 +201,16 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         gathered: &Gathered<'_, C>,
         casts: Option<&mut Casts<'_, 't, L, C>>,
     ) {
-        let places = match gathered.places {
-            Places::Texels(places) => Some(places),
-            Places::None => None,
-            Places::Lacking => {
-                self.lack = Some(Reason::Lent(Lent::Places));
-                None
-            }
-        };
-        let skin = self.state.texture.zip(places);
+        let places = gathered.places.unwrap_or_else(|lack| {
+            self.lack = Some(lack);
+            None
+        });
+        let texture = places.and_then(|places| self.skin(places, gathered.prsp));
         let alphas = seen(gathered.alphas);
-        let blend = self.blend(skin.is_some(), !alphas.is_empty());
+        let blend = self.blend(texture.is_some(), !alphas.is_empty());
         let Some(scene) = &mut self.scene else {
             return;
         };
-        let texture = skin.map(|(listed, places)| Skin {
-            texture: listed.texture,
-            places,
-            budget: match gathered.prsp {
-                true => self.budget,
-                false => Budget::FAST,
-            },
-        });
         let before = scene.assembled();
         let mut done = Ok(());
         lights::fall(self.lights, &self.state.material, &mut |lights| {
@@ -257,7 +244,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         alphas: &[u8],
         header: Header,
     ) {
-        let texture = self.state.texture.filter(|_| header.text);
+        let texture = self.skin(&[], header.prsp).filter(|_| header.text);
         let alphas = seen(alphas);
         let blend = self.blend(header.text, !alphas.is_empty());
         let Some(scene) = &mut self.scene else {
@@ -266,20 +253,21 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         let draw = Draw {
             alphas,
             blend,
-            texture: texture.map(|listed| Skin {
-                texture: listed.texture,
-                places: &[],
-                budget: if header.prsp {
-                    self.budget
-                } else {
-                    Budget::FAST
-                },
-            }),
+            texture,
             ..self.state.draw
         };
         let before = scene.assembled();
         let done = scene.draw_screen(&draw, triangles);
         self.count(0, before, done, self.offset);
+    }
+
+    /// The texture with these places, which are to be exact or not.
+    fn skin<'p>(&self, places: &'p [[i32; 2]], prsp: bool) -> Option<Skin<'p, 't>> {
+        Some(Skin {
+            texture: self.state.texture?.texture,
+            places,
+            budget: if prsp { self.budget } else { Budget::FAST },
+        })
     }
 
     /// The blend of what has the texture or has none, and has alphas or none: numbers of a palette can have none.

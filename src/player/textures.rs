@@ -75,15 +75,6 @@ impl<'t> Listed<'t> {
     }
 }
 
-/// A texture that is to be drawn with.
-#[derive(Clone, Copy)]
-pub(super) struct Asked {
-    pub(super) pair: Pair,
-    /// Whether its draw calls are dithered.
-    pub(super) dithers: bool,
-    pub(super) sampling: Option<Sampling>,
-}
-
 /// The textures that were made, and memory for more.
 #[derive(Debug)]
 pub(super) struct Shelf<'t> {
@@ -143,16 +134,17 @@ impl<'t> Shelf<'t> {
         }
     }
 
-    /// The texture that is asked for.
+    /// The texture of a pair, whose draw calls are dithered or not.
     ///
     /// # Errors
     /// [`Reason::Missing`] and [`Reason::Lent`].
     pub(super) fn texture<F: PixelFormat>(
         &mut self,
         words: impl Words<'t>,
-        asked: Asked,
+        pair: Pair,
+        dithers: bool,
+        sampling: Option<Sampling>,
     ) -> Result<Listed<'t>, Reason> {
-        let pair = asked.pair;
         let in_place = |at, count| {
             let slice = words.slice(at, count);
             let readable = slice.filter(|_| cfg!(target_endian = "little"));
@@ -166,7 +158,7 @@ impl<'t> Shelf<'t> {
             },
             pair,
         };
-        let key = source.key(asked);
+        let key = source.key(dithers, sampling);
         let mut known = self.last;
         while let Some(room) = known {
             if let Some(kept) = room.kept.as_ref().filter(|kept| kept.key == key) {
@@ -175,7 +167,7 @@ impl<'t> Shelf<'t> {
             known = room.before;
         }
         self.fits(1, source, 0)?;
-        let (texture, is_translucent) = self.make::<F>(source, key, asked.sampling)?;
+        let (texture, is_translucent) = self.make::<F>(source, key, sampling)?;
         self.keep(Kept {
             texture,
             is_translucent,
@@ -423,18 +415,17 @@ impl<'t> Source<'t> {
             (TexelForm::Index2, _) => Texture::index2(bytes, colours, width, height),
             (TexelForm::Index4, _) => Texture::index4(bytes, colours, width, height),
             (form, _) if form.is_indexed() => Texture::index8(bytes, colours, width, height),
-            (_, Some(words)) => {
-                let from = words.get(self.texels_above(level)..).unwrap_or_default();
+            (_, words) => {
+                let from = match words {
+                    Some(words) => words.get(self.texels_above(level)..).unwrap_or_default(),
+                    None => bytemuck::cast_slice(self.words_of(level)),
+                };
                 Texture::words(from.get(..count).unwrap_or_default(), width, height)
-            }
-            (_, None) => {
-                let words: &'t [u16] = bytemuck::cast_slice(self.words_of(level));
-                Texture::words(words.get(..count).unwrap_or_default(), width, height)
             }
         }
     }
 
-    fn key(&self, asked: Asked) -> Key {
+    fn key(&self, dithers: bool, sampling: Option<Sampling>) -> Key {
         let is_told = matches!(self.pair.form, TexelForm::Rgba | TexelForm::Rgbd5551);
         Key {
             texels: self.texels.as_ptr().addr(),
@@ -445,8 +436,8 @@ impl<'t> Source<'t> {
                 ..self.pair
             },
             // Others do not say what is not dithered.
-            dithers: asked.dithers && is_told,
-            sampling: asked.sampling.map(|sampling| sampling.draw as usize),
+            dithers: dithers && is_told,
+            sampling: sampling.map(|sampling| sampling.draw as usize),
             is_mask: false,
         }
     }

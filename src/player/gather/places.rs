@@ -5,7 +5,7 @@
 
 use super::{Gather, Kind};
 use crate::geometry::Coordinate;
-use crate::list::{Place, Words};
+use crate::list::{Lent, Place, Reason, Words};
 use core::ops::Range;
 
 /// Sides in 4.12 as texels with 8 fraction bits, on a texture with sides of these logarithms.
@@ -14,37 +14,11 @@ pub(crate) fn texels([u, v]: [i32; 2], [width, height]: [u8; 2]) -> [i32; 2] {
     [u << width.min(15) >> 4, v << height.min(15) >> 4]
 }
 
+/// Why there are no places where vertices have some.
+const LACKING: Reason = Reason::Lent(Lent::Places);
+
 /// Sides whose texels are a list's places themselves.
 pub(super) const RAW: [u8; 2] = [4; 2];
-
-/// Places on the texture that a mesh is drawn with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Places<'a> {
-    /// The vertices have none, or there is no texture.
-    None,
-    /// In texels with 8 fraction bits, as many as there are vertices.
-    Texels(&'a [[i32; 2]]),
-    /// There was no memory for them, or they are gone.
-    Lacking,
-}
-
-/// Which of the memory's places they are.
-pub(super) enum Placed {
-    None,
-    At(Range<usize>),
-    Lacking,
-}
-
-impl Placed {
-    /// The places themselves.
-    pub(super) fn of(self, memory: &[[i32; 2]]) -> Places<'_> {
-        match self {
-            Self::None => Places::None,
-            Self::At(range) => memory.get(range).map_or(Places::None, Places::Texels),
-            Self::Lacking => Places::Lacking,
-        }
-    }
-}
 
 impl<C: Coordinate + Place> Gather<'_, C> {
     /// The places of the vertices from which a strip may go on.
@@ -59,28 +33,32 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         kept
     }
 
-    /// Makes texels of the places of what is about to be drawn, on a texture with such sides.
+    /// Makes texels of the places of what is about to be drawn, on a texture with such sides; which of the memory's places
+    /// they are, if there are any.
+    ///
+    /// # Errors
+    /// When there was no memory for them, or they are gone.
     pub(super) fn place<'w>(
         &mut self,
         words: impl Words<'w>,
         run: Range<usize>,
         sides: Option<[u8; 2]>,
-    ) -> Placed {
+    ) -> Result<Option<Range<usize>>, Reason> {
         let Some(sides) = sides else {
-            return Placed::None;
+            return Ok(None);
         };
         match self.kind {
-            Kind::Nothing => Placed::None,
-            Kind::Run { has, .. } if has.lacks_places => Placed::Lacking,
+            Kind::Nothing => Ok(None),
+            Kind::Run { has, .. } if has.lacks_places => Err(LACKING),
             Kind::Run { has, .. } => {
                 let places = self.memory.places.get_mut(run.clone());
                 let Some(places) = places.filter(|_| has.places) else {
-                    return Placed::None;
+                    return Ok(None);
                 };
                 for place in places {
                     *place = texels(*place, sides);
                 }
-                Placed::At(run)
+                Ok(Some(run))
             }
             Kind::Table => self.place_table(words, sides),
         }
@@ -88,19 +66,19 @@ impl<C: Coordinate + Place> Gather<'_, C> {
 
     /// The same of the table.
     #[inline(never)]
-    fn place_table<'w>(&mut self, words: impl Words<'w>, sides: [u8; 2]) -> Placed {
-        let Some(table) = self.table.as_mut() else {
-            return Placed::None;
-        };
-        let Some(slot) = table.texture else {
-            return Placed::None;
+    fn place_table<'w>(
+        &mut self,
+        words: impl Words<'w>,
+        sides: [u8; 2],
+    ) -> Result<Option<Range<usize>>, Reason> {
+        let textured = self.table.as_mut().and_then(|t| Some((t.texture?, t)));
+        let Some((slot, table)) = textured else {
+            return Ok(None);
         };
         let n = usize::from(table.count);
-        let Some(out) = self.memory.places.get_mut(..n) else {
-            return Placed::Lacking;
-        };
+        let out = self.memory.places.get_mut(..n).ok_or(LACKING)?;
         if table.placed == Some(sides) {
-            return Placed::At(0..n);
+            return Ok(Some(0..n));
         }
         let first = words.first();
         match table.placed.filter(|_| words.room().is_some()) {
@@ -112,11 +90,11 @@ impl<C: Coordinate + Place> Gather<'_, C> {
                 }
             }
             Some(_) if table.at.wrapping_sub(first) >= words.end().wrapping_sub(first) => {
-                return Placed::Lacking;
+                return Err(LACKING);
             }
             _ => slot.column(words, table.at, out, |_, [u, v, _]| texels([u, v], sides)),
         }
         table.placed = Some(sides);
-        Placed::At(0..n)
+        Ok(Some(0..n))
     }
 }

@@ -1,9 +1,11 @@
 //! A table of vertices, and triangles of it by index.
 
 use super::fill::{End, Rules, fill};
-use super::{Column, Gather, Kind, Out, Refusal, Table};
+use super::{Column, Gather, Kind, Out, Table};
 use crate::geometry::Coordinate;
-use crate::list::{FieldForm, Header, Layout, Place, Run, VertexFormat, Words, colour};
+use crate::list::{
+    FieldForm, Header, Layout, Lent, Missing, Place, Reason, Run, VertexFormat, Words, colour,
+};
 
 impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes a table: columns that cannot be used where they lie are unpacked.
@@ -17,7 +19,7 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         format: &VertexFormat,
         run: Run,
         out: &mut Out<'_, C>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), Reason> {
         self.flush(words, out);
         self.reset();
         let layout = Layout::new(format, run.header);
@@ -60,7 +62,7 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         {
             table.usable = false;
             self.table = Some(table);
-            return Err(Refusal::Vertices);
+            return Err(Reason::Lent(Lent::Vertices));
         }
         let fine = C::of(place.form, [0; 3]).is_none();
         if let (Column::Unpacked, Some(out)) = (table.place, m.positions.get_mut(..n)) {
@@ -97,7 +99,11 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         }
         table.usable = !fine;
         self.table = Some(table);
-        if fine { Err(Refusal::Fine) } else { Ok(()) }
+        if fine {
+            Err(Reason::Missing(Missing::FinePlaces))
+        } else {
+            Ok(())
+        }
     }
 
     /// Whether the table in force has texture places, for which there is no memory.
@@ -118,10 +124,10 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         words: impl Words<'w>,
         run: Run,
         out: &mut Out<'_, C>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), Reason> {
         self.begin(out);
         let Some(table) = self.table.filter(|t| t.usable) else {
-            return Err(Refusal::Table);
+            return Err(Reason::Lent(Lent::Vertices));
         };
         if self.kind != Kind::Table {
             self.flush(words, out);
@@ -158,7 +164,7 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         mut rest: &[I],
         rules: &Rules,
         out: &mut Out<'_, C>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), Reason> {
         loop {
             let free = self.memory.indices.get_mut(self.indices..);
             let free = free.unwrap_or_default();
@@ -171,15 +177,13 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             match filled.end {
                 End::All => return Ok(()),
                 End::Bad(index) => {
-                    return Err(Refusal::Index {
-                        index,
-                        count: rules.count,
-                    });
+                    let count = rules.count;
+                    return Err(Reason::Index { index, count });
                 }
                 End::Full => {
                     self.flush(words, out);
                     if self.memory.indices.len() < 3 {
-                        return Err(Refusal::Indices);
+                        return Err(Reason::Lent(Lent::Indices));
                     }
                 }
             }

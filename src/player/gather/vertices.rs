@@ -1,8 +1,10 @@
 //! Short vertices: strips, fans, quads, quad strips and points.
 
-use super::{Attributes, Gather, Kind, Out, Refusal, RunFaces};
+use super::{Attributes, Gather, Kind, Out, RunFaces};
 use crate::geometry::{Coordinate, QuadSplit};
-use crate::list::{Header, Id, Layout, Place, Run, VertexFormat, Words, colour};
+use crate::list::{
+    Header, Id, Layout, Lent, Missing, Place, Reason, Run, VertexFormat, Words, colour,
+};
 
 impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes the vertices of a block of SHORT, QUADS, or POINTS of so many pixels each way.
@@ -17,13 +19,13 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         run: Run,
         point_size: u8,
         out: &mut Out<'_, C>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), Reason> {
         self.begin(out);
         let header = run.header;
         let (quads, points) = (header.id == Id::Quads, header.id == Id::Points);
         let layout = Layout::new(format, header);
         if C::of(layout.place.form, [0; 3]).is_none() {
-            return Err(Refusal::Fine);
+            return Err(Reason::Missing(Missing::FinePlaces));
         }
         let texture = layout.texture.filter(|_| out.textured);
         let keeps_places = !self.memory.places.is_empty();
@@ -41,10 +43,10 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         };
         let room = self.room(has).saturating_sub(self.base);
         if room < 4 {
-            return Err(Refusal::Vertices);
+            return Err(Reason::Lent(Lent::Vertices));
         }
         if self.memory.indices.len() < 4 {
-            return Err(Refusal::Indices);
+            return Err(Reason::Lent(Lent::Indices));
         }
         let strip = !points && (!quads || header.rm);
         if !strip || header.new {
