@@ -190,9 +190,7 @@ impl core::fmt::Display for Reason {
             Self::Version(version) => write!(f, "version {version} is unknown"),
             Self::Reserved(word) => write!(f, "header {word:#010x} sets a reserved bit"),
             Self::Kind(kind) => write!(f, "kind {kind} is unknown"),
-            Self::Value { word, value } => {
-                write!(f, "word {word} cannot be {value:#x}")
-            }
+            Self::Value { word, value } => write!(f, "word {word} cannot be {value:#x}"),
             Self::Count(count) => write!(f, "the count cannot be {count}"),
             Self::Format { parameter, format } => {
                 write!(f, "parameter {parameter} cannot have the format {format}")

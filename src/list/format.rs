@@ -204,24 +204,19 @@ impl VertexFormat {
             len: len as u8,
             ..Self::default()
         };
+        let bad = |parameter, format| Err(Reason::Format { parameter, format });
         let mut seen = 0u32;
         for (slot, byte) in format.fields.iter_mut().zip(bytes.take(len)) {
             let field = Field::read(byte)?;
             let bit = 1 << field.parameter;
             if seen & bit != 0 {
-                return Err(Reason::Format {
-                    parameter: field.parameter,
-                    format: field.form as u8,
-                });
+                return bad(field.parameter, field.form as u8);
             }
             seen |= bit;
             *slot = field;
         }
         if seen & 1 == 0 {
-            return Err(Reason::Format {
-                parameter: Field::PLACE,
-                format: 0xFF,
-            });
+            return bad(Field::PLACE, 0xFF);
         }
         Ok(format)
     }

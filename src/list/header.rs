@@ -66,9 +66,8 @@ impl Id {
         match self {
             Self::Flow | Self::State | Self::Later | Self::Master => 0,
             Self::Short | Self::Long => 0xF8,
-            Self::Points => 0xE0,
+            Self::Points | Self::Table => 0xE0,
             Self::Quads => 0xF8 | Header::SPLIT as u32,
-            Self::Table => 0xE0,
             Self::Indexed => 0x18 | (Header::WIDE | Header::SEPARATE) as u32,
         }
     }

@@ -12,14 +12,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 pub struct OverlaySlot {
     /// Bit 31: in use; 3..0 the form, 4 added, 15..8 colours less one.
     name: AtomicU32,
-    /// Left and top, lower half first.
-    place: AtomicU32,
-    /// Width and height.
-    size: AtomicU32,
-    /// Position of the pixels.
-    at: AtomicU32,
-    /// Position of the colours.
-    colours: AtomicU32,
+    /// Left and top, lower half first; width and height; position of the pixels, and of the colours.
+    words: [AtomicU32; 4],
 }
 
 impl OverlaySlot {
@@ -28,10 +22,7 @@ impl OverlaySlot {
     pub const fn new() -> Self {
         Self {
             name: AtomicU32::new(0),
-            place: AtomicU32::new(0),
-            size: AtomicU32::new(0),
-            at: AtomicU32::new(0),
-            colours: AtomicU32::new(0),
+            words: [const { AtomicU32::new(0) }; 4],
         }
     }
 }
@@ -62,15 +53,15 @@ impl<'m> OverlaySlots<'m> {
             return false;
         };
         let pair = |low: u16, high: u16| u32::from(low) | u32::from(high) << 16;
-        let put = |to: &AtomicU32, value| to.store(value, Ordering::Relaxed);
-        put(&slot.place, pair(overlay.left, overlay.top));
-        put(&slot.size, pair(overlay.width, overlay.height));
-        put(&slot.at, overlay.at);
-        put(&slot.colours, colours);
+        let place = pair(overlay.left, overlay.top);
+        let size = pair(overlay.width, overlay.height);
+        for (to, word) in slot.words.iter().zip([place, size, overlay.at, colours]) {
+            to.store(word, Ordering::Relaxed);
+        }
         let name = overlay.form as u32
             | u32::from(overlay.additive) << 4
             | (count.saturating_sub(1) & 0xFF) << 8;
-        put(&slot.name, IN_USE | name);
+        slot.name.store(IN_USE | name, Ordering::Relaxed);
         true
     }
 
@@ -81,9 +72,9 @@ impl<'m> OverlaySlots<'m> {
         'w: 'm,
     {
         let row = move |slot: &OverlaySlot| {
-            let get = |from: &AtomicU32| from.load(Ordering::Relaxed);
-            let name = get(&slot.name);
-            let (place, size) = (get(&slot.place), get(&slot.size));
+            let name = slot.name.load(Ordering::Relaxed);
+            let words_of = slot.words.each_ref().map(|w| w.load(Ordering::Relaxed));
+            let [place, size, at, colours_at] = words_of;
             let row = line.checked_sub((place >> 16) as u16)?;
             if name & IN_USE == 0 || u32::from(row) >= size >> 16 {
                 return None;
@@ -91,7 +82,7 @@ impl<'m> OverlaySlots<'m> {
             let form = form_of_code(name & 15);
             let mut colours: &[u32] = &[];
             if form.is_indexed() {
-                let from = words.get(get(&slot.colours) as usize..)?;
+                let from = words.get(colours_at as usize..)?;
                 colours = from.get(..=(name >> 8 & 0xFF) as usize)?;
             }
             let width = size as u16;
@@ -100,7 +91,7 @@ impl<'m> OverlaySlots<'m> {
                 width,
                 additive: name >> 4 & 1 != 0,
                 first: u32::from(row) * u32::from(width),
-                texels: Texels::new(words.get(get(&slot.at) as usize..)?, form, colours),
+                texels: Texels::new(words.get(at as usize..)?, form, colours),
             })
         };
         self.0.iter().filter_map(row)

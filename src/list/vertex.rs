@@ -34,11 +34,7 @@ impl Place for i16 {
             return None;
         }
         let s = shifts(form);
-        Some([
-            (f[0] << s[0]) as i16,
-            (f[1] << s[1]) as i16,
-            (f[2] << s[2]) as i16,
-        ])
+        Some([0, 1, 2].map(|n| (f[n] << s[n]) as i16))
     }
 }
 
@@ -51,11 +47,7 @@ impl Place for i32 {
             return Some(f);
         }
         let s = shifts(form);
-        Some([
-            f[0] << (16 + s[0]),
-            f[1] << (16 + s[1]),
-            f[2] << (16 + s[2]),
-        ])
+        Some([0, 1, 2].map(|n| f[n] << (16 + s[n])))
     }
 }
 
@@ -64,15 +56,13 @@ impl FieldForm {
     #[inline(always)]
     #[must_use]
     pub fn normal(self, f: [i32; 3]) -> [i16; 3] {
-        match self {
-            Self::S10x3 => [
-                ((f[0] * 1025) >> 6) as i16,
-                ((f[1] * 1025) >> 6) as i16,
-                ((f[2] * 513) >> 4) as i16,
-            ],
-            Self::S8x3 => f.map(|v| (v * 129) as i16),
-            _ => f.map(|v| v as i16),
-        }
+        let [x, y, z] = f;
+        let grown = match self {
+            Self::S10x3 => [(x * 1025) >> 6, (y * 1025) >> 6, (z * 513) >> 4],
+            Self::S8x3 => f.map(|v| v * 129),
+            _ => f,
+        };
+        grown.map(|v| v as i16)
     }
 }
 
@@ -94,11 +84,7 @@ const fn signed(v: u32, bits: u32) -> i32 {
 fn fields(form: FieldForm, w: [u32; 3]) -> [i32; 3] {
     let [w, x, y] = w;
     match form {
-        FieldForm::U8x4 | FieldForm::U8x3 => [
-            (w & 0xFF) as i32,
-            (w >> 8 & 0xFF) as i32,
-            (w >> 16 & 0xFF) as i32,
-        ],
+        FieldForm::U8x4 | FieldForm::U8x3 => [w, w >> 8, w >> 16].map(|v| (v & 0xFF) as i32),
         FieldForm::S8x3 => [signed(w, 8), signed(w >> 8, 8), signed(w >> 16, 8)],
         FieldForm::S10x3 => [signed(w, 11), signed(w >> 11, 11), w as i32 >> 22],
         FieldForm::S16x3 => [signed(w, 16), w as i32 >> 16, signed(x, 16)],
@@ -115,19 +101,6 @@ pub struct Slot {
     pub form: FieldForm,
     /// Words before it.
     pub word: u32,
-}
-
-impl Slot {
-    /// Whether a colour has an alpha.
-    pub(crate) fn has_alpha(self) -> bool {
-        self.form == FieldForm::U8x4
-    }
-
-    /// The alpha of a colour of four bytes, where a vertex begins; in a table, as many words on as there are vertices
-    /// before.
-    pub(crate) fn alpha<'w>(self, words: impl Words<'w>, at: u32) -> u8 {
-        (words.word(at.wrapping_add(self.word)) >> 24) as u8
-    }
 }
 
 /// Where the parameters lie that a mesh has.
@@ -182,6 +155,17 @@ impl Layout {
 }
 
 impl Slot {
+    /// Whether a colour has an alpha.
+    pub(crate) fn has_alpha(self) -> bool {
+        self.form == FieldForm::U8x4
+    }
+
+    /// The alpha of a colour of four bytes, where a vertex begins; in a table, as many words on as there are vertices
+    /// before.
+    pub(crate) fn alpha<'w>(self, words: impl Words<'w>, at: u32) -> u8 {
+        (words.word(at.wrapping_add(self.word)) >> 24) as u8
+    }
+
     /// The field of the vertex that begins at `at`.
     #[inline(always)]
     pub fn field<'w>(self, words: impl Words<'w>, at: u32) -> [i32; 3] {
@@ -270,7 +254,6 @@ fn column<T>(
     out: &mut [T],
     of: impl Fn(FieldForm, [i32; 3]) -> T,
 ) {
-    const FOUR: FieldForm = FieldForm::U8x4;
     const TEN: FieldForm = FieldForm::S10x3;
     const HALVES: FieldForm = FieldForm::S16x3;
     const WORDS: FieldForm = FieldForm::S32x3;
@@ -299,7 +282,7 @@ fn column<T>(
                 *slot = of(TEN, fields(TEN, [next(), 0, 0]));
             }
         }
-        FOUR | FieldForm::U16x2 | FieldForm::U32x1 => {
+        FieldForm::U8x4 | FieldForm::U16x2 | FieldForm::U32x1 => {
             for slot in out {
                 *slot = of(form, fields(form, [next(), 0, 0]));
             }
