@@ -170,16 +170,7 @@ impl Mask {
 
     #[inline(never)]
     fn cover_part_words(&mut self, start: u32, end: u32, mut new: impl FnMut(usize)) -> Part {
-        let (mut any, mut lack) = (0, 0);
-        each_word(start, end, |word, bits| {
-            any |= self.0[word] & bits;
-            lack |= bits & !self.0[word];
-        });
-        let part = match (any, lack) {
-            (0, _) => Part::None,
-            (_, 0) => Part::All,
-            _ => Part::Some,
-        };
+        let part = self.part_of_words(start, end);
         each_word(start, end, |word, bits| {
             if part == Part::Some {
                 let mut fresh = bits & !self.0[word];
@@ -223,22 +214,29 @@ impl Mask {
                 self.0[last] |= right;
                 return Part::None;
             }
-            return if there == [left, right] {
-                Part::All
-            } else {
-                Part::Some
-            };
+            let all = there == [left, right];
+            return if all { Part::All } else { Part::Some };
         }
+        let part = self.part_of_words(start, end);
+        if part == Part::None {
+            each_word(start, end, |word, bits| self.0[word] |= bits);
+        }
+        part
+    }
+
+    /// How much of `start .. end` is covered.
+    #[inline(always)]
+    fn part_of_words(&self, start: u32, end: u32) -> Part {
         let (mut any, mut lack) = (0, 0);
         each_word(start, end, |word, bits| {
             any |= self.0[word] & bits;
             lack |= bits & !self.0[word];
         });
-        if any != 0 {
-            return if lack == 0 { Part::All } else { Part::Some };
+        match (any, lack) {
+            (0, _) => Part::None,
+            (_, 0) => Part::All,
+            _ => Part::Some,
         }
-        each_word(start, end, |word, bits| self.0[word] |= bits);
-        Part::None
     }
 
     /// Whether the mask has all of `start .. end`.

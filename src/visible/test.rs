@@ -60,8 +60,8 @@ impl Orders {
 pub(crate) fn test(cells: &mut [u32], at: u32, step: u32, test: DepthTest) -> u32 {
     // Most calls hide what is farther, or are seen through and keep nothing.
     match test {
-        DepthTest::HIDES => return hide(cells, at, step),
-        SEEN => return see(cells, at, step),
+        DepthTest::HIDES => return nearer(cells, at, step, |cell, depth| *cell = depth),
+        SEEN => return nearer(cells, at, step, |_, _| {}),
         _ => {}
     }
     let orders = Orders::of(cells, at, step);
@@ -97,18 +97,6 @@ fn nearer(cells: &mut [u32], at: u32, step: u32, keep: impl Fn(&mut u32, u32)) -
     }
     // Of no cells no bit is set, whatever it is shifted by.
     seen << (32u32.wrapping_sub(count) & 31)
-}
-
-/// [`test`] of what is kept where it is seen, in one pass.
-#[inline(never)]
-fn hide(cells: &mut [u32], at: u32, step: u32) -> u32 {
-    nearer(cells, at, step, |cell, depth| *cell = depth)
-}
-
-/// [`test`] of what is not kept.
-#[inline(never)]
-fn see(cells: &mut [u32], at: u32, step: u32) -> u32 {
-    nearer(cells, at, step, |_, _| {})
 }
 
 /// Keeps depths from `at` on by `step`.
