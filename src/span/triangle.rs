@@ -247,7 +247,11 @@ impl Triangle<'_> {
             if lines.end <= line {
                 return Entry { area: 0, bits: 0 };
             }
-            self.turn_sides(way, sides);
+            if way == Way::PLAIN {
+                sides.turn_plain([self.place(1), self.place(2)]);
+            } else {
+                sides.turn(self, way);
+            }
             if lines.end == line + 1 && way == Way::PLAIN && sides.is_empty(line as u32) {
                 return Entry { area: 0, bits: 0 };
             }
@@ -256,15 +260,6 @@ impl Triangle<'_> {
         }
         let bits = size as u32 | u32::from(way.0) << 8 | change << 16;
         Entry { area, bits }
-    }
-
-    #[inline(always)]
-    fn turn_sides(&self, way: Way, sides: &mut Sides) {
-        if way == Way::PLAIN {
-            sides.turn_plain([self.place(1), self.place(2)]);
-        } else {
-            sides.turn(self, way);
-        }
     }
 
     /// The sides on `line` and below, up to the turn or the end.
@@ -346,10 +341,8 @@ impl Triangle<'_> {
         let kind = self.kind();
         let crosses = low < 8 * ORIGIN || high > 8 * (ORIGIN + frame.width);
         let wide = 8 * frame.wide_left();
-        if crosses && (low < wide || high >= wide + 8 * 1023) {
-            return Way::new(Kind::Divided, crosses);
-        }
-        Way::new(kind, crosses)
+        let is_far = crosses && (low < wide || high >= wide + 8 * 1023);
+        Way::new(if is_far { Kind::Divided } else { kind }, crosses)
     }
 
     #[inline(always)]
@@ -400,19 +393,11 @@ impl Sides {
     #[inline(never)]
     pub(crate) fn turn(&mut self, triangle: &Triangle<'_>, way: Way) {
         let [_, b, c] = triangle.places();
-        let origin = triangle.origin(way);
-        let d = c.wrapping_sub(b);
-        let to_right = down(d) > 0;
-        let side = match (way.kind(), to_right) {
-            (Kind::Short, true) => Edge::short(b, across(d), down(d), origin),
-            (Kind::Short, false) => Edge::short(c, -across(d), -down(d), origin),
-            (kind, true) => Edge::of_kind(kind, b, c, origin),
-            (kind, false) => Edge::of_kind(kind, c, b, origin),
-        };
-        if to_right {
-            self.right = side;
+        let (kind, origin) = (way.kind(), triangle.origin(way));
+        if down(c.wrapping_sub(b)) > 0 {
+            self.right = Edge::of_kind(kind, b, c, origin);
         } else {
-            self.left = side;
+            self.left = Edge::of_kind(kind, c, b, origin);
         }
     }
 
