@@ -18,8 +18,13 @@ pub trait PixelFormat {
     /// A pixel from whole steps, each at most [`STEPS`](PixelFormat::STEPS).
     fn pack(steps: [u8; 3]) -> Self::Word;
 
-    /// A pixel from two words with 16 bits a channel: red and blue, green in the upper half.
-    fn pack_words(red_blue: u32, green: u32) -> Self::Word;
+    /// A pixel from two words with 16 bits a channel: red and blue, green in the upper half. Unless a format has a way of
+    /// its own, these are cut to whole steps, of which [`STEPS`](PixelFormat::STEPS) has a power of two less one.
+    #[inline(always)]
+    fn pack_words(red_blue: u32, green: u32) -> Self::Word {
+        let channels = [red_blue >> 16, green >> 16, red_blue & 0xFFFF];
+        Self::pack([0, 1, 2].map(|i| (channels[i] >> Self::STEPS[i].leading_zeros()) as u8))
+    }
 
     /// Sets all of `pixels` to `word`.
     #[inline]
@@ -146,15 +151,6 @@ impl PixelFormat for Rgb888 {
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> [u8; 3] {
         steps
-    }
-
-    #[inline(always)]
-    fn pack_words(red_blue: u32, green: u32) -> [u8; 3] {
-        [
-            (red_blue >> 24) as u8,
-            (green >> 24) as u8,
-            (red_blue >> 8) as u8,
-        ]
     }
 
     /// Four pixels at a time, which are three words, where there are enough of them.
@@ -287,11 +283,11 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     }
 
     fn mix(old: &mut [u16], new: &[u16], mix: Mix) {
-        if Self::IS_NATIVE {
-            mix_565(old, new, |pair| pair, mix);
-        } else {
-            mix_565(old, new, swapped_halves, mix);
-        }
+        let order = |pair| match Self::IS_NATIVE {
+            true => pair,
+            false => swapped_halves(pair),
+        };
+        mix_565(old, new, order, mix);
     }
 
     #[inline(always)]

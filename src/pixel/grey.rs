@@ -17,12 +17,6 @@ pub struct Grey8;
 /// Weights of red, green and blue; their sum is 256.
 const WEIGHTS: [u32; 3] = [77, 150, 29];
 
-#[inline(always)]
-const fn grey(r: u32, g: u32, b: u32) -> u8 {
-    // At most 255 as all three are.
-    ((WEIGHTS[0] * r + WEIGHTS[1] * g + WEIGHTS[2] * b + 128) >> 8) as u8
-}
-
 impl PixelFormat for Grey8 {
     type Word = u8;
     const STEPS: [u16; 3] = [255; 3];
@@ -31,12 +25,8 @@ impl PixelFormat for Grey8 {
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> u8 {
         let [r, g, b] = steps.map(u32::from);
-        grey(r, g, b)
-    }
-
-    #[inline(always)]
-    fn pack_words(red_blue: u32, green: u32) -> u8 {
-        grey(red_blue >> 24, green >> 24, red_blue >> 8 & 0xFF)
+        // At most 255 as all three are.
+        ((WEIGHTS[0] * r + WEIGHTS[1] * g + WEIGHTS[2] * b + 128) >> 8) as u8
     }
 
     #[inline(always)]

@@ -25,8 +25,6 @@ impl<const N: usize> Indexed<N> {
         assert!(N.is_power_of_two() && N >= 2 && N <= 256);
         N
     };
-    /// Where an index begins in 32 bits.
-    const SHIFT: u32 = 32 - Self::SIZE.ilog2();
 
     /// The 8-bit levels that a mesh is given for this index, which wraps at `N`.
     #[must_use]
@@ -49,11 +47,6 @@ impl<const N: usize> PixelFormat for Indexed<N> {
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> u8 {
         steps[0]
-    }
-
-    #[inline(always)]
-    fn pack_words(red_blue: u32, _: u32) -> u8 {
-        (red_blue >> Self::SHIFT) as u8
     }
 
     /// The sum of the indices, at most the last.
