@@ -14,10 +14,8 @@ impl Area {
     /// `None` where the triangle is too thin for planes.
     #[inline(always)]
     pub(super) fn new(corners: &[Corner; 3]) -> Option<Self> {
-        match Small::new(corners) {
-            Some(area) => Some(Self::Small(area)),
-            None => Large::of(corners),
-        }
+        let small = Small::new(corners).map(Self::Small);
+        small.or_else(|| Large::of(corners))
     }
 
     /// The plane of values below 2^30 either way, modulo 2^32: at the picture's first pixel, and the steps to the right and
@@ -165,10 +163,7 @@ impl Large {
     #[inline(never)]
     fn plane(&mut self, value: [i32; 3], picture: Option<Frame>) -> Option<[u32; 3]> {
         // Below 4,096 texels, and less than the greatest 1/w.
-        let (e1, e2) = (
-            value[1].wrapping_sub(value[0]),
-            value[2].wrapping_sub(value[0]),
-        );
+        let [e1, e2] = [1, 2].map(|i| value[i].wrapping_sub(value[0]));
         let [y2, y1, x1, x2] = self.side;
         let dx = self.step(e1, y2, e2, y1)?;
         let dy = self.step(e2, x1, e1, x2)?;

@@ -37,44 +37,38 @@ pub struct Uv {
 }
 
 impl Uv {
+    #[inline(always)]
+    pub const fn new(u: i32, v: i32) -> Self {
+        Self { u, v }
+    }
+
     /// The place that is `by` further on.
     #[inline(always)]
     #[must_use]
     pub const fn plus(self, by: Self) -> Self {
-        Self {
-            u: self.u.wrapping_add(by.u),
-            v: self.v.wrapping_add(by.v),
-        }
+        Self::new(self.u.wrapping_add(by.u), self.v.wrapping_add(by.v))
     }
 
     /// The way from `from` to here.
     #[inline(always)]
     #[must_use]
     pub const fn minus(self, from: Self) -> Self {
-        Self {
-            u: self.u.wrapping_sub(from.u),
-            v: self.v.wrapping_sub(from.v),
-        }
+        Self::new(self.u.wrapping_sub(from.u), self.v.wrapping_sub(from.v))
     }
 
     /// This way `pixels` times.
     #[inline(always)]
     #[must_use]
     pub const fn times(self, pixels: usize) -> Self {
-        Self {
-            u: self.u.wrapping_mul(pixels as i32),
-            v: self.v.wrapping_mul(pixels as i32),
-        }
+        let times = pixels as i32;
+        Self::new(self.u.wrapping_mul(times), self.v.wrapping_mul(times))
     }
 
     /// One step of `2^log` on this way, rounded down.
     #[inline(always)]
     #[must_use]
     pub const fn part(self, log: u32) -> Self {
-        Self {
-            u: self.u >> log,
-            v: self.v >> log,
-        }
+        Self::new(self.u >> log, self.v >> log)
     }
 }
 
@@ -103,10 +97,8 @@ impl Way {
     /// The first place modulo 8192 texels, as it is on a texture that repeats.
     #[inline(always)]
     const fn repeated(&self) -> Uv {
-        self.at.plus(Uv {
-            u: self.base[0] << FRACTION,
-            v: self.base[1] << FRACTION,
-        })
+        let [u, v] = self.base;
+        self.at.plus(Uv::new(u << FRACTION, v << FRACTION))
     }
 }
 
@@ -240,16 +232,10 @@ fn copy_turns(run: &mut [u16], texture: &Texture<'_>, way: Turns) {
         Form::Index4(..) => each(run, texture, way, |i| form.get(i)),
         Form::Index2(..) => each(run, texture, way, |i| form.get(i)),
         Form::Index1(..) => each(run, texture, way, |i| form.get(i)),
-        Form::Computed(texels, _) => texels.fetch(run, way.texels(texture)),
-    }
-}
-
-impl Turns {
-    /// Columns and rows of a texture along the way.
-    #[inline(always)]
-    fn texels(self, texture: &Texture<'_>) -> TexelWay {
-        let logs = [texture.log_width(), texture.log_height()];
-        TexelWay::new(self.u, self.v, logs)
+        Form::Computed(texels, _) => {
+            let logs = [texture.log_width(), texture.log_height()];
+            texels.fetch(run, TexelWay::new(way.u, way.v, logs));
+        }
     }
 }
 
@@ -346,14 +332,7 @@ impl Texture<'_> {
     #[inline(never)]
     pub(super) fn at(&self, base: [i32; 2], at: Uv) -> Option<u16> {
         let side = |at: i32, base: i32, log: u32| {
-            let cell = Axis {
-                at,
-                base,
-                log,
-                step: 0,
-                wrap: self.wrap(),
-            };
-            (cell.unfolded()[0] >> FRACTION) as usize & ((1 << log) - 1)
+            folded((at >> FRACTION).wrapping_add(base), log, self.wrap())
         };
         let column = side(at.u, base[0], self.log_width());
         let row = side(at.v, base[1], self.log_height());
@@ -361,8 +340,20 @@ impl Texture<'_> {
     }
 }
 
+/// The column or the row, of `2^log`, that a wrap shows for any texel.
+#[inline(always)]
+pub(super) fn folded(texel: i32, log: u32, wrap: Wrap) -> usize {
+    let last = (1 << log) - 1;
+    let texel = match wrap {
+        Wrap::Repeat => texel,
+        Wrap::Clamp => texel.clamp(0, last),
+        Wrap::Mirror if texel >> log & 1 != 0 => !texel,
+        Wrap::Mirror => texel,
+    };
+    (texel & last) as usize
+}
+
 /// One axis of a way, cut into cells: within one, places are straight on the texture.
-#[derive(Clone, Copy)]
 struct Axis {
     at: i32,
     step: i32,
@@ -438,13 +429,7 @@ fn copy_cells(run: &mut [u16], texture: &Texture<'_>, way: Way) {
             return;
         };
         let ([at_u, step_u], [at_v, step_v]) = (u.unfolded(), v.unfolded());
-        let (at, step) = (
-            Uv { u: at_u, v: at_v },
-            Uv {
-                u: step_u,
-                v: step_v,
-            },
-        );
+        let (at, step) = (Uv::new(at_u, at_v), Uv::new(step_u, step_v));
         copy_turns(now, texture, turns(texture, at, step));
         u.advance(pixels);
         v.advance(pixels);

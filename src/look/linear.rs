@@ -5,7 +5,7 @@
 //! four texels (`firmware --profile examples/scene-files/court.json`). In runs of 5 pixels with other texels each it is
 //! 94 and 135, all in (`--profile values_sampled`).
 
-use super::fetch::{FRACTION, Way};
+use super::fetch::{FRACTION, Way, folded};
 use super::tint::Texel;
 use crate::scene::{Form, Texture, TextureError, Words, Wrap, half};
 
@@ -97,20 +97,7 @@ impl Side {
     /// A texel and the one behind it.
     #[inline(always)]
     fn pair(self, first: i32) -> [usize; 2] {
-        [first, first.wrapping_add(1)].map(|texel| self.folded(texel))
-    }
-
-    /// What the wrap shows for any texel.
-    #[inline(always)]
-    fn folded(self, texel: i32) -> usize {
-        let last = (1 << self.log) - 1;
-        let texel = match self.wrap {
-            Wrap::Repeat => texel,
-            Wrap::Clamp => texel.clamp(0, last),
-            Wrap::Mirror if texel >> self.log & 1 != 0 => !texel,
-            Wrap::Mirror => texel,
-        };
-        (texel & last) as usize
+        [first, first.wrapping_add(1)].map(|texel| folded(texel, self.log, self.wrap))
     }
 }
 
@@ -127,27 +114,24 @@ fn mixed_masks(four: [u16; 4], nearest: u16, right: u32, down: u32) -> u16 {
 pub(super) fn copy_linear(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
     let sides = [texture.log_width(), texture.log_height()];
     let is_plain = texture.wrap() == Wrap::Repeat && texture.key().is_none() && of != Words::Masks;
-    match texture.form {
+    let _end = match texture.form {
         // A side of one texel has no bits: nothing is shifted by 32.
-        Form::Words(words) if is_plain && !sides.contains(&0) => {
-            if of == Words::Swapped {
-                copy_repeated::<true>(run, words, sides, way);
-            } else {
-                copy_repeated::<false>(run, words, sides, way);
-            }
-        }
+        Form::Words(words) if is_plain && !sides.contains(&0) => match of {
+            Words::Swapped => copy_repeated::<true>(run, words, sides, way),
+            _ => copy_repeated::<false>(run, words, sides, way),
+        },
         _ => copy_any(run, texture, way, of),
-    }
+    };
 }
 
-/// From words that repeat, with places as 32-bit fractions of the period.
+/// From words that repeat, with places as 32-bit fractions of the period; `None` at the end of the run.
 #[inline(never)]
 fn copy_repeated<const SWAPPED: bool>(
     run: &mut [u16],
     words: &[u16],
     [log_width, log_height]: [u32; 2],
     way: Way,
-) {
+) -> Option<()> {
     let turn = |texels: i32, log: u32| (texels << (13 - log)) as u32;
     // Texels lie in the middle of their squares.
     let first = |at: i32, base: i32, log: u32| {
@@ -162,35 +146,20 @@ fn copy_repeated<const SWAPPED: bool>(
     let (last, all) = ((1u32 << log_width) - 1, words.len() as u32 - 1);
     let mut pixels = run.iter_mut();
     let (mut across, mut along) = (u >> right, v >> down);
-    let Some(mut pixel) = pixels.next() else {
-        return;
-    };
+    let mut pixel = pixels.next()?;
     loop {
         let place = [across >> 4, along >> 4];
         let (column, row) = (place[0], place[1] << log_width);
         let (next, below) = ((column + 1) & last, (row + last + 1) & all);
         let texel = |at: u32| words.get(at as usize).copied();
         // One after the other: of four the compiler would keep some in memory.
-        let Some(a) = texel(row | column) else {
-            return;
-        };
-        let Some(b) = texel(row | next) else {
-            return;
-        };
-        let Some(c) = texel(below | column) else {
-            return;
-        };
-        let Some(d) = texel(below | next) else {
-            return;
-        };
+        let (a, b) = (texel(row | column)?, texel(row | next)?);
+        let (c, d) = (texel(below | column)?, texel(below | next)?);
         let square = Square::<SWAPPED>::of([a, b, c, d]);
         // Pixels between the same four texels.
         loop {
             *pixel = square.at(across & 15, along & 15);
-            let Some(more) = pixels.next() else {
-                return;
-            };
-            pixel = more;
+            pixel = pixels.next()?;
             u = u.wrapping_add(du);
             v = v.wrapping_add(dv);
             (across, along) = (u >> right, v >> down);
@@ -201,9 +170,9 @@ fn copy_repeated<const SWAPPED: bool>(
     }
 }
 
-/// From any form and size, with any wrap, with holes or without.
+/// From any form and size, with any wrap, with holes or without; `None` at the end of the run.
 #[inline(never)]
-fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
+fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) -> Option<()> {
     let wrap = texture.wrap();
     let side = |base: i32, log: u32| Side { base, log, wrap };
     let columns = side(way.base[0], texture.log_width());
@@ -216,23 +185,13 @@ fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
     let mut pixels = run.iter_mut();
     let (mut column, mut across) = columns.first(at.u);
     let (mut row, mut down) = rows.first(at.v);
-    let Some(mut pixel) = pixels.next() else {
-        return;
-    };
+    let mut pixel = pixels.next()?;
     loop {
         let place = [column, row];
         let ([left, right], [upper, lower]) = (columns.pair(column), rows.pair(row));
-        let texel =
-            |column: usize, row: usize| texture.form.get(row << texture.log_width() | column);
-        let (Some(a), Some(b), Some(c), Some(d)) = (
-            texel(left, upper),
-            texel(right, upper),
-            texel(left, lower),
-            texel(right, lower),
-        ) else {
-            return;
-        };
-        let four = [a, b, c, d];
+        let texel = |column, row: usize| texture.form.get(row << texture.log_width() | column);
+        let (a, b) = (texel(left, upper)?, texel(right, upper)?);
+        let four = [a, b, texel(left, lower)?, texel(right, lower)?];
         // Pixels between the same four texels.
         loop {
             let mean = |four: [u16; 4]| order(mixed::<false>(four.map(order), across, down));
@@ -242,10 +201,7 @@ fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
                 None => mean(four),
                 Some(key) => opaque(four, nearest, key, mean),
             };
-            let Some(more) = pixels.next() else {
-                return;
-            };
-            pixel = more;
+            pixel = pixels.next()?;
             at = at.plus(way.step);
             (column, across) = columns.first(at.u);
             (row, down) = rows.first(at.v);
@@ -295,10 +251,8 @@ pub fn halved<'w, F: Texel>(
         let (column, row) = (i % width as usize, i / width as usize);
         let at = |dx: usize, dy: usize| {
             let place = [column << right | dx & right, row << down | dy & down];
-            texture
-                .form
-                .get(place[1] << texture.log_width() | place[0])
-                .unwrap_or_default()
+            let texel = texture.form.get(place[1] << texture.log_width() | place[0]);
+            texel.unwrap_or_default()
         };
         *word = mean::<F>([at(0, 0), at(1, 0), at(0, 1), at(1, 1)], texture.key());
     }

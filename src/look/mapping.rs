@@ -88,7 +88,7 @@ pub struct Values {
 
 /// Least and most of three numbers.
 #[inline(always)]
-fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
+pub(super) fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
@@ -118,10 +118,8 @@ impl Values {
             return None;
         }
         let (mut base, mut of, mut places) = ([0; 2], [[0; 3]; 3], [[0; 2]; 2]);
-        for (axis, log) in [texture.log_width(), texture.log_height()]
-            .into_iter()
-            .enumerate()
-        {
+        let logs = [texture.log_width(), texture.log_height()];
+        for (axis, log) in logs.into_iter().enumerate() {
             let [low, high] = ways[axis];
             let first = corners[0].texel[axis];
             let middle = first.wrapping_add((low + high) >> 1) >> 14;
@@ -186,9 +184,7 @@ impl Values {
         }
         true
     }
-}
 
-impl Values {
     /// How far exact places may be apart, from planes that are made.
     #[inline(always)]
     fn stride(&self, finer: u32, mapping: &mut Mapping, texture: &Texture<'_>, budget: Budget) {
@@ -207,13 +203,6 @@ impl Values {
             mapping.quick = mapping.reach.line.min(exact) + 1;
         }
     }
-}
-
-/// A plane's value at a pixel.
-#[inline(always)]
-pub fn word_at([at, right, below]: &[u32; 3], place: Place) -> u32 {
-    at.wrapping_add(right.wrapping_mul(place.column))
-        .wrapping_add(below.wrapping_mul(place.line))
 }
 
 impl Mapping {
@@ -328,19 +317,7 @@ impl Mapping {
     /// The whole span of a run.
     #[inline(always)]
     fn span(&self, place: Place) -> Perspective {
-        let place = place.first();
-        let [s, t, q] = [0, 1, 2].map(|i| word_at(&self.planes[i], place));
-        let [ds, dt, dq] = self.planes.map(|[_, right, _]| right);
-        let of = |q, s: u32, t: u32| Homogeneous {
-            q,
-            s: s as i32,
-            t: t as i32,
-        };
-        Perspective {
-            base: texels_of(self.base),
-            at: of(q, s, t),
-            step: of(dq, ds, dt),
-        }
+        Perspective::of(texels_of(self.base), &self.planes, place)
     }
 
     /// Copies texels into `run`, which begins at `place` of the picture.
@@ -348,20 +325,11 @@ impl Mapping {
     pub fn draw_any(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
         match self.method {
             Method::Word => {
-                let plane = &self.planes[0];
-                copy(run, texture, word_at(plane, place), plane[1]);
+                let plane = self.planes[0];
+                copy(run, texture, place.value(plane), plane[1]);
             }
             Method::Wide => {
-                let uv = |u: u32, v: u32| Uv {
-                    u: u as i32,
-                    v: v as i32,
-                };
-                let [u, v] = [0, 1].map(|i| word_at(&self.planes[i], place.first()));
-                let way = Way {
-                    base: texels_of(self.base),
-                    at: uv(u, v),
-                    step: uv(self.planes[0][1], self.planes[1][1]),
-                };
+                let way = Way::of(texels_of(self.base), &self.planes, place);
                 if budget.is_coarse() {
                     copy_wide(run, place.within().skipped, texture, way);
                 } else {
@@ -420,6 +388,32 @@ impl Mapping {
             reach.line = reach.line.min(4);
         }
         span.draw(run, within, texture, Stride::within(reach.line));
+    }
+}
+
+impl Way {
+    /// The span that begins at a place's first pixel, of planes of u and v.
+    #[inline(always)]
+    pub(super) fn of(base: [i32; 2], [u, v, _]: &[[u32; 3]; 3], place: Place) -> Self {
+        let at = [u, v].map(|plane| place.first().value(*plane) as i32);
+        Self {
+            base,
+            at: Uv::new(at[0], at[1]),
+            step: Uv::new(u[1] as i32, v[1] as i32),
+        }
+    }
+}
+
+impl Perspective {
+    /// The same of planes of u/w, v/w and 1/w.
+    #[inline(always)]
+    pub(super) fn of(base: [i32; 2], planes: &[[u32; 3]; 3], place: Place) -> Self {
+        let place = place.first();
+        Self {
+            base,
+            at: Homogeneous::of([0, 1, 2].map(|i| place.value(planes[i]))),
+            step: Homogeneous::of(planes.map(|[_, right, _]| right)),
+        }
     }
 }
 

@@ -86,8 +86,7 @@ pub trait Look: Sized {
 
     /// How many halves of what most spans take one of so many pixels does, of a look with textures.
     #[doc(hidden)]
-    fn halves(fill: Fill, planes: &Self::Planes, pixels: u32) -> u32 {
-        let _ = (planes, pixels);
+    fn halves(fill: Fill, _planes: &Self::Planes, _pixels: u32) -> u32 {
         match fill {
             Fill::Plain | Fill::Small => 2,
             Fill::Wide | Fill::Thin => 4,
@@ -102,10 +101,9 @@ pub trait Look: Sized {
         planes: &Self::Planes,
         at: Place,
         draws: &[DrawState<'_>],
-        dithers: bool,
+        _dithers: bool,
         run: &mut [WordOf<Self>],
     ) -> u32 {
-        let _ = dithers;
         Self::fill(fill, planes, at, draws, run);
         u32::MAX
     }
@@ -113,14 +111,11 @@ pub trait Look: Sized {
     /// Words of the mask of a draw call's texture, of the texels that a run of pixels shows; nothing where there is no
     /// mask.
     #[doc(hidden)]
-    fn fill_mask(planes: &Self::Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        let _ = (planes, at, draws, run);
-    }
+    fn fill_mask(_planes: &Self::Planes, _at: Place, _: &[DrawState<'_>], _run: &mut [u16]) {}
 
     /// Planes that keep enough of a triangle's colour for a dither, in place of those it has, where these do not.
     #[doc(hidden)]
-    fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Self::Planes) -> Option<Fill> {
-        let _ = (triangle, planes);
+    fn set_up_dithered(_triangle: &Triangle<'_>, _planes: &mut Self::Planes) -> Option<Fill> {
         None
     }
 }
@@ -150,6 +145,13 @@ impl Place {
             column: self.span,
             ..self
         }
+    }
+
+    /// The value here of a plane: at the picture's first pixel, and its steps to the right and down.
+    #[inline(always)]
+    pub fn value(self, [at, right, below]: [u32; 3]) -> u32 {
+        at.wrapping_add(right.wrapping_mul(self.column))
+            .wrapping_add(below.wrapping_mul(self.line))
     }
 
     /// Pixels of the span before the run.

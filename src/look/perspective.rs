@@ -72,6 +72,13 @@ impl Reciprocal {
 }
 
 impl Homogeneous {
+    /// Of the values of planes: u/w, v/w, 1/w.
+    #[inline(always)]
+    pub const fn of([s, t, q]: [u32; 3]) -> Self {
+        let (s, t) = (s as i32, t as i32);
+        Self { q, s, t }
+    }
+
     /// The sum, modulo 2^32.
     #[inline(always)]
     #[must_use]
@@ -101,10 +108,8 @@ impl Homogeneous {
     pub fn place(self) -> Uv {
         let r = Reciprocal::of(self.q);
         // s / q 2^30 = s mantissa 2^(shift - 17)
-        Uv {
-            u: mul_17(self.s, r.mantissa) << r.shift,
-            v: mul_17(self.t, r.mantissa) << r.shift,
-        }
+        let of = |value: i32| mul_17(value, r.mantissa) << r.shift;
+        Uv::new(of(self.s), of(self.t))
     }
 }
 
@@ -135,11 +140,8 @@ static PARTS: [i32; 128] = {
 /// One step of a way of `steps` of them, at most 64; rounded down.
 #[inline(always)]
 fn nth(way: Uv, steps: usize) -> Uv {
-    let n = PARTS[steps & 127];
-    Uv {
-        u: mul_high(way.u, n) << 1,
-        v: mul_high(way.v, n) << 1,
-    }
+    let of = |way: i32| mul_high(way, PARTS[steps & 127]) << 1;
+    Uv::new(of(way.u), of(way.v))
 }
 
 impl Perspective {
@@ -153,10 +155,9 @@ impl Perspective {
             return Reach::NONE;
         }
         let (from, to) = (self.at.place(), last.place());
-        let of = |a: i32, b: i32, step: i32| Range {
-            low: a.min(b),
-            high: a.max(b),
-            step,
+        let of = |a: i32, b: i32, step: i32| {
+            let (low, high) = (a.min(b), a.max(b));
+            Range { low, high, step }
         };
         let ways = [of(from.u, to.u, self.step.s), of(from.v, to.v, self.step.t)];
         reach(least, self.step.q as i32, ways, budget, log)
@@ -177,15 +178,22 @@ impl Perspective {
     /// Copies a square's texels into a run of a span of up to 65 pixels along a parabola, with exact places at both ends.
     #[inline(always)]
     pub fn arc(&self, run: &mut [u16], within: Within, square: Square<'_>) {
-        let rest = Rest {
+        let rest = self.rest(run, within, 0);
+        let piece = rest.last(self.step);
+        piece.copy_arc(rest.run, self.step.q, Bent::Words(square));
+    }
+
+    /// What lies behind so many pixels.
+    #[inline(always)]
+    fn rest<'r>(&self, run: &'r mut [u16], within: Within, first: usize) -> Rest<'r> {
+        let at = self.at.plus(self.step.times(first));
+        Rest {
             run,
-            skipped: within.skipped,
-            steps: within.steps(),
-            from: self.at.place(),
-            at: self.at,
-        };
-        let arc = Arc::along(&rest.last(self.step), self.step.q, square.log());
-        arc.on(within.skipped).copy(rest.run, Bent::Words(square));
+            skipped: within.skipped - first,
+            steps: within.steps() - first,
+            from: at.place(),
+            at,
+        }
     }
 
     /// Copies texels into a run of the span, with exact places at every `stride` pixels and at the
@@ -205,11 +213,7 @@ impl Perspective {
     /// every power of two of steps that is at most `arc`.
     #[inline(never)]
     pub fn arcs(&self, run: &mut [u16], within: Within, square: Bent<'_>, arc: u8) {
-        let side = square.log();
-        let copy = |run: &mut [u16], piece: Piece| {
-            let arc = Arc::along(&piece, self.step.q, side);
-            arc.on(piece.skipped).copy(run, square);
-        };
+        let copy = |run: &mut [u16], piece: Piece| piece.copy_arc(run, self.step.q, square);
         let log = 31 - leading_zeros(u32::from(arc) | 1);
         let rest = self.pieces(run, within, log, copy);
         if !rest.run.is_empty() {
@@ -230,14 +234,7 @@ impl Perspective {
         let length = 1usize << log;
         let first = within.skipped >> log << log;
         let ahead = self.step.times(length);
-        let at = self.at.plus(self.step.times(first));
-        let mut rest = Rest {
-            run,
-            skipped: within.skipped - first,
-            steps: within.steps() - first,
-            from: at.place(),
-            at,
-        };
+        let mut rest = self.rest(run, within, first);
         while rest.steps >= length && !rest.run.is_empty() {
             let at = rest.at.plus(ahead);
             let piece = rest.piece_to(at, length);
@@ -348,6 +345,15 @@ struct Piece {
     skipped: usize,
 }
 
+impl Piece {
+    /// Copies a square's texels into a run along a parabola through both places and the exact middle.
+    #[inline(always)]
+    fn copy_arc(&self, run: &mut [u16], dq: u32, square: Bent<'_>) {
+        let arc = Arc::along(self, dq, square.log()).on(self.skipped);
+        copy_arc(run, square, arc.at, [arc.step, arc.turn]);
+    }
+}
+
 /// What of a run lies behind the last whole piece of its span, or the beginning of that.
 struct Rest<'r> {
     run: &'r mut [u16],
@@ -424,12 +430,6 @@ impl Arc {
             step: self.step.wrapping_add(self.turn.wrapping_mul(n)),
             turn: self.turn,
         }
-    }
-
-    /// Copies a square's texels into a run that begins here.
-    #[inline(always)]
-    fn copy(self, run: &mut [u16], square: Bent<'_>) {
-        copy_arc(run, square, self.at, [self.step, self.turn]);
     }
 }
 

@@ -13,7 +13,7 @@
 use super::Place;
 use super::fetch::{Uv, Way, copy_exact};
 use super::linear::copy_linear;
-use super::mapping::{Method, word_at};
+use super::mapping::Method;
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::Stride;
 use super::word_plane::Near;
@@ -57,24 +57,8 @@ fn draw(span: &SampledSpan<'_>, run: &mut [u16], read: Read) {
     match span.method {
         Method::Perspective => span.perspective(run, read),
         // Places in one word are drawn without a question for levels.
-        Method::Word | Method::Wide => affine(span, run, span.affine_way(), read),
+        Method::Word | Method::Wide => span.affine(run, read),
     }
-}
-
-/// A run of a triangle that is affine, along the way of its span, with the way to the next line.
-fn affine(span: &SampledSpan<'_>, run: &mut [u16], [way, down]: [Way; 2], read: Read) {
-    let level = match area(way.step, down.step) {
-        0 => 0,
-        // Of which one texel has 2^36.
-        area => level_of((log2(area) >> 8) - 36, span.texture.levels()),
-    };
-    let way = way.skip((span.column - span.columns.start) as usize);
-    read(
-        run,
-        &span.texture.level(level),
-        way.coarser(level),
-        span.words,
-    );
 }
 
 /// A quarter of the area that two ways span.
@@ -101,42 +85,38 @@ impl Way {
 }
 
 impl SampledSpan<'_> {
-    /// The value of a plane at the span's first pixel.
-    fn first(&self, plane: usize) -> u32 {
-        let first = Place {
+    /// Where the run begins.
+    fn place(&self) -> Place {
+        Place {
             span: self.columns.start,
             end: self.columns.end,
-            column: self.columns.start,
+            column: self.column,
             line: self.line,
-        };
-        word_at(&self.planes[plane], first)
+        }
     }
 
-    /// The way of the span, and that to the next line, of a triangle that is affine.
-    fn affine_way(&self) -> [Way; 2] {
-        let of = |word: [u32; 2]| Uv {
-            u: word[0] as i32,
-            v: word[1] as i32,
+    /// A run of a triangle that is affine.
+    fn affine(&self, run: &mut [u16], read: Read) {
+        let place = self.place();
+        let way = Way::of(self.base, self.planes, place);
+        let [u, v, _] = self.planes;
+        let level = match area(way.step, Uv::new(u[2] as i32, v[2] as i32)) {
+            0 => 0,
+            // Of which one texel has 2^36.
+            area => level_of((log2(area) >> 8) - 36, self.texture.levels()),
         };
-        [1, 2].map(|i| Way {
-            base: self.base,
-            at: of([self.first(0), self.first(1)]),
-            step: of([self.planes[0][i], self.planes[1][i]]),
-        })
+        let way = way.skip(place.skipped() as usize).coarser(level);
+        read(run, &self.texture.level(level), way, self.words);
     }
 
     /// A run whose pixels have a 1/w each.
     fn perspective(&self, run: &mut [u16], read: Read) {
-        let of = |[s, t, q]: [u32; 3]| Homogeneous {
-            q,
-            s: s as i32,
-            t: t as i32,
-        };
-        let (at, base) = (of([0, 1, 2].map(|plane| self.first(plane))), self.base);
-        let [step, down] = [1, 2].map(|i| of(self.planes.map(|plane| plane[i])));
+        let place = self.place();
+        let Perspective { base, at, step } = Perspective::of(self.base, self.planes, place);
+        let down = Homogeneous::of(self.planes.map(|plane| plane[2]));
         let ends = Ends::new(at, [step, down], self.texture.levels());
         let pixels = self.columns.len();
-        let (mut rest, mut skipped) = (run, (self.column - self.columns.start) as usize);
+        let (mut rest, mut skipped) = (run, place.skipped() as usize);
         let mut first = 0;
         while !rest.is_empty() && first < pixels {
             let at = at.plus(step.times(first));
@@ -199,10 +179,7 @@ impl Ends {
         let place = at.place();
         let [across, down] = steps.map(|step| {
             let way = |s: i32, place: i32| s.wrapping_sub(mul_high(place, step.q as i32) << 2);
-            Uv {
-                u: way(step.s, place.u),
-                v: way(step.t, place.v),
-            }
+            Uv::new(way(step.s, place.u), way(step.t, place.v))
         });
         let area = area(across, down);
         if area == 0 {
@@ -225,11 +202,7 @@ impl Ends {
     /// How many of `pixels` pixels (at least 1), with 1/w of `q` at the first and a step of `step`, have its level.
     fn same(&self, q: u32, step: i32, pixels: usize) -> usize {
         let level = self.level(q);
-        let ahead = if step < 0 {
-            Some(level)
-        } else {
-            level.checked_sub(1)
-        };
+        let ahead = level.checked_sub(usize::from(step >= 0));
         let end = ahead
             .filter(|&i| i < self.levels)
             .and_then(|i| self.at.get(i));
@@ -360,7 +333,7 @@ mod tests {
                         column,
                         line,
                     };
-                    word_at(&mapping.planes[plane], place)
+                    place.value(mapping.planes[plane])
                 };
                 for (column, &shown) in [(0, &run[0]), (end - 1, &run[run.len() - 1])] {
                     let [s, t] = [0, 1].map(|plane| value(plane, column) as i32);

@@ -15,7 +15,7 @@ use super::course::Course;
 use super::fetch::{copy_from, copy_part};
 use super::fields::is_even;
 use super::gouraud::{Planes as Shades, course, even_pair, thin_shades, wide_shades};
-use super::mapping::{Corner, Mapping, Method, Values, word_at};
+use super::mapping::{Corner, Mapping, Method, Values};
 use super::phong::Shine;
 use super::shades::{shade_at, shade_course, shade_planes, small_shade};
 use super::stride::Reach;
@@ -65,8 +65,8 @@ impl Planes {
     #[inline(always)]
     pub(super) fn copy_plain(&self, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
         if let Some((texture, _)) = self.state(draws).and_then(DrawState::texture) {
-            let plane = &self.mapping.planes[0];
-            copy_part(run, texture, word_at(plane, place), plane[1]);
+            let plane = self.mapping.planes[0];
+            copy_part(run, texture, place.value(plane), plane[1]);
         }
     }
 
@@ -400,8 +400,8 @@ impl<F: Texel> Look for Textured<F> {
         else {
             return;
         };
-        let plane = &planes.mapping.planes[0];
-        copy_from(run, square, word_at(plane, place), plane[1]);
+        let plane = planes.mapping.planes[0];
+        copy_from(run, square, place.value(plane), plane[1]);
         if planes.shaded.is_some() {
             Self::shade_small(&planes.shade, place, run);
         }

@@ -93,8 +93,7 @@ impl<'a> Near<'a> {
         let r = recip_16((area as u32) << up >> 16) as i32;
         // Sides times 64 / area are these times 2^(up - 44).
         let share = |d: i32| (d * r) << 3;
-        let (y2, y1, x1, x2) = (share(dy[1]), share(-dy[0]), share(dx[0]), share(-dx[1]));
-        let shares = [y2, y1, x1, x2];
+        let shares = [share(dy[1]), share(-dy[0]), share(dx[0]), share(-dx[1])];
         let at = [x & 63, y & 63];
         let u = one_axis(first[0], rises[0], texture.log_width(), up, shares, at);
         let v = one_axis(first[1], rises[1], texture.log_height(), up, shares, at);
@@ -105,9 +104,7 @@ impl<'a> Near<'a> {
             .wrapping_sub(below.wrapping_mul((y >> 6) as u32));
         Some([at, right, below])
     }
-}
 
-impl Near<'_> {
     /// The same of a texture with levels of detail, and the triangle's level.
     #[must_use]
     pub fn leveled(&self, texture: &Texture<'_>, budget: Budget) -> Option<[u32; 4]> {
