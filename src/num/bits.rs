@@ -9,7 +9,6 @@ use core::num::NonZeroU32;
 
 /// The set of one member, 0 to 31.
 #[inline(always)]
-#[must_use]
 pub const fn bit(member: u32) -> u32 {
     if SHORT {
         low_bit(member)

@@ -28,7 +28,6 @@ impl<const N: usize> Block<N> {
     };
 
     /// Normalises `value[i] 2^(exponent - 30)`, rounding to nearest.
-    #[must_use]
     pub fn new(value: [i64; N], exponent: i32) -> Self {
         let mut mantissa = [0; N];
         match normalise(&value, &mut mantissa) {
@@ -41,7 +40,6 @@ impl<const N: usize> Block<N> {
     }
 
     /// Converts floats; `None` when one is not finite or beyond 2^96 in magnitude.
-    #[must_use]
     pub fn from_f32(value: [f32; N]) -> Option<Self> {
         let mut mantissa = [0; N];
         let exponent = mantissas(&value, &mut mantissa);
@@ -50,7 +48,6 @@ impl<const N: usize> Block<N> {
     }
 
     /// Floats times a power of two, the largest below 2^30; `None` when one is not finite, or all are 0.
-    #[must_use]
     pub fn direction(value: [f32; N]) -> Option<[i32; N]> {
         let mut mantissa = [0; N];
         let exponent = mantissas(&value, &mut mantissa);
@@ -59,19 +56,16 @@ impl<const N: usize> Block<N> {
 
     /// Whether all are 0.
     #[inline(always)]
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.mantissa.iter().fold(0, |bits, m| bits | m) == 0
     }
 
     /// The number at `i` times 2^`shift`, rounded to an integer.
-    #[must_use]
     pub fn scaled(&self, i: usize, shift: i32) -> i64 {
         shift_round(i64::from(self.mantissa[i]), self.exponent - 30 + shift)
     }
 
     /// How many bits the integer part of the sum of all magnitudes needs at most.
-    #[must_use]
     pub fn magnitude_bits(&self) -> i32 {
         let mut sum = 0u64;
         for m in self.mantissa {
@@ -154,7 +148,6 @@ fn mantissas(value: &[f32], mantissa: &mut [i32]) -> i32 {
 /// Shifts left saturate, so a number that does not fit keeps its sign. Out of line, for set-up:
 /// shifts of 64 bits by a variable take a dozen instructions each.
 #[inline(never)]
-#[must_use]
 pub const fn shift_round(value: i64, shift: i32) -> i64 {
     if shift >= 0 {
         if value == 0 {
@@ -174,7 +167,6 @@ pub const fn shift_round(value: i64, shift: i32) -> i64 {
 
 /// `value 2^-shift`, rounded to nearest, half up; a shift is by 31 at most.
 #[inline(always)]
-#[must_use]
 pub const fn rounded(value: i32, shift: i32) -> i32 {
     // The bit below is that of twice the value.
     (value >> (shift & 31)) + ((value << 1) >> (shift & 31) & 1)

@@ -26,7 +26,6 @@ static SEEDS: [u8; 256] = {
 ///
 /// Its relative error is below 2^-27. For 0 it is that of 1.
 #[inline]
-#[must_use]
 pub fn inverse_root(x: u32) -> (u32, u32) {
     let x = if x == 0 { 1 } else { x };
     let up = few_leading_zeros(x) & 0x1E;

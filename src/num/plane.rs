@@ -27,7 +27,6 @@ impl InverseArea {
     /// Of a triangle whose corners go clockwise: where the first one is, and the ways to the others, units of 1/8 pixel
     /// and below 2^15 either way; `None` when the area is 0.
     #[inline(always)]
-    #[must_use]
     pub fn new(first: [i32; 2], ways: [[i32; 2]; 2]) -> Option<Self> {
         let [[dx1, dy1], [dx2, dy2]] = ways;
         let area = dx1 * dy2 - dx2 * dy1;
@@ -53,7 +52,6 @@ impl InverseArea {
     /// half a unit a pixel for the rounding of the steps): then a plane is the wrong tool, and
     /// weights have to be taken for each pixel.
     #[inline(never)]
-    #[must_use]
     pub fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
         let rises = [value[1] - value[0], value[2] - value[0]];
         if rises == [0; 2] {

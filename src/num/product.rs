@@ -7,7 +7,6 @@ use super::short::{self, SHORT};
 
 /// `floor(a b / 2^32)`: SMULL, or SMMUL, on a Cortex-M4.
 #[inline(always)]
-#[must_use]
 pub const fn mul_high(a: i32, b: i32) -> i32 {
     if SHORT {
         short::high(a, b)
@@ -18,7 +17,6 @@ pub const fn mul_high(a: i32, b: i32) -> i32 {
 
 /// `floor(a b / 2^32)` without signs.
 #[inline(always)]
-#[must_use]
 pub const fn mul_high_unsigned(a: u32, b: u32) -> u32 {
     if SHORT {
         short::high_unsigned(a, b)
@@ -30,7 +28,6 @@ pub const fn mul_high_unsigned(a: u32, b: u32) -> u32 {
 /// `a b`: SMULL; where there is none, by a call that takes half of what the compiler's own does.
 #[cfg_attr(short_multiply, inline(never))]
 #[cfg_attr(not(short_multiply), inline(always))]
-#[must_use]
 pub const fn mul_wide(a: i32, b: i32) -> i64 {
     if SHORT {
         short::wide(a, b)
@@ -41,7 +38,6 @@ pub const fn mul_wide(a: i32, b: i32) -> i64 {
 
 /// `floor(a b / 2^16)` modulo 2^32: SMULWB on a Cortex-M4.
 #[inline(always)]
-#[must_use]
 pub const fn mul_16(a: i32, b: i16) -> i32 {
     if SHORT {
         short::by_16(a, b)
@@ -53,7 +49,6 @@ pub const fn mul_16(a: i32, b: i16) -> i32 {
 /// A product of two bytes by 255, to nearest. Of a sum of two such products, what is beyond 255 may be one off, but stays
 /// beyond. Where a processor has no division, one by a constant is a call too.
 #[inline(always)]
-#[must_use]
 pub const fn of_255(product: u32) -> u32 {
     ((product + 127) * 0x8081) >> 23
 }
@@ -61,7 +56,6 @@ pub const fn of_255(product: u32) -> u32 {
 /// Zero bits above the topmost one, 32 for 0; where no instruction counts them, by a call.
 #[cfg_attr(short_multiply, inline(never))]
 #[cfg_attr(not(short_multiply), inline(always))]
-#[must_use]
 pub fn leading_zeros(x: u32) -> u32 {
     leading_zeros_here(x)
 }
@@ -69,7 +63,6 @@ pub fn leading_zeros(x: u32) -> u32 {
 /// [`leading_zeros`] of a number that mostly has few: below 6 they are found in half the time, others take a little more.
 #[cfg_attr(short_multiply, inline(never))]
 #[cfg_attr(not(short_multiply), inline(always))]
-#[must_use]
 pub fn few_leading_zeros(x: u32) -> u32 {
     if SHORT {
         short::few_zeros(x).unwrap_or_else(|| leading_zeros(x))
@@ -80,7 +73,6 @@ pub fn few_leading_zeros(x: u32) -> u32 {
 
 /// [`leading_zeros`] without a call: some 40 bytes more, for what is asked of every small triangle.
 #[inline(always)]
-#[must_use]
 pub fn leading_zeros_here(x: u32) -> u32 {
     if SHORT {
         short::leading_zeros(x)

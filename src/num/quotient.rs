@@ -11,7 +11,6 @@ use core::hint::black_box;
 ///
 /// Two digits of 16 bits, each by a division of 32 and at most two corrections.
 #[inline(never)]
-#[must_use]
 pub fn divide(number: u64, by: u32) -> u32 {
     if (number >> 32) as u32 >= by {
         return u32::MAX;
@@ -39,7 +38,6 @@ pub fn divide(number: u64, by: u32) -> u32 {
 }
 
 /// [`divide`] of a number with a sign, rounded towards 0.
-#[must_use]
 pub fn divide_signed(number: i64, by: u32) -> i64 {
     let quotient = i64::from(divide(number.unsigned_abs(), by));
     if number < 0 { -quotient } else { quotient }
@@ -47,7 +45,6 @@ pub fn divide_signed(number: i64, by: u32) -> i64 {
 
 /// `n / by` rounded down, for `by` of 1 to 2^15 - 1, where that has 16 bits with its sign.
 #[inline(always)]
-#[must_use]
 pub fn quotient_16(n: i32, by: i32) -> i32 {
     if SHORT {
         short::floor(n, by as u32).0
@@ -59,16 +56,13 @@ pub fn quotient_16(n: i32, by: i32) -> i32 {
 /// `dx / height` rounded down, and what is left of it in 2^-22: of `dx` with 16 bits and a sign and a height of 1 to
 /// 1,023, or of 0 and a height of up to 16 bits.
 #[inline(always)]
-#[must_use]
 pub fn slope_and_rest(dx: i32, height: i32) -> (i32, i32) {
     if SHORT {
         return short::slope_and_rest(dx, height as u32);
     }
     let whole = dx.div_euclid(height);
-    (
-        whole,
-        ((((dx - whole * height) as u32) << 22) / height as u32) as i32,
-    )
+    let rest = ((dx - whole * height) as u32) << 22;
+    (whole, (rest / height as u32) as i32)
 }
 
 #[cfg(test)]

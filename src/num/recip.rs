@@ -11,7 +11,6 @@ use super::short::{self, SHORT};
 /// The result is never above the true quotient by more than one unit and never below it by more
 /// than four: a relative error of at most 2^-28.
 #[inline]
-#[must_use]
 pub const fn recip(a: u32) -> u32 {
     if SHORT {
         let (seed, rest) = short::divide(0xFFFF_FFFF, a >> 16);

@@ -26,7 +26,6 @@ static SEEDS: [u16; 256] = {
 
 /// `floor((2^31 - 1) / n)` for `n` in 2^15 ..< 2^16; anything for other numbers.
 #[inline(always)]
-#[must_use]
 pub fn recip_16(n: u32) -> u32 {
     if SHORT {
         by_seed(n)
@@ -53,7 +52,6 @@ pub const HEIGHTS: u32 = 511;
 
 /// `floor((2^31 - 1) / height)` for a height of 1 to [`HEIGHTS`]; 0 for 0.
 #[inline(always)]
-#[must_use]
 pub fn of_height(height: u32) -> u32 {
     static RECIPROCAL: [u32; HEIGHTS as usize + 1] = {
         let mut table = [0; HEIGHTS as usize + 1];
@@ -69,7 +67,6 @@ pub fn of_height(height: u32) -> u32 {
 
 /// `floor(a b / 2^16)` modulo 2^32, for a reciprocal `b` of 2^15 ..< 2^16.
 #[inline(always)]
-#[must_use]
 pub const fn mul_recip_16(a: i32, b: u32) -> i32 {
     if SHORT {
         mul_16_in_pieces(a, b)
@@ -88,7 +85,6 @@ const fn mul_16_in_pieces(a: i32, b: u32) -> i32 {
 
 /// `floor(a b / 2^17)`, `b` of 16 bits without a sign.
 #[inline(always)]
-#[must_use]
 pub const fn mul_17(a: i32, b: u32) -> i32 {
     if SHORT {
         mul_17_in_pieces(a, b)
@@ -105,7 +101,6 @@ const fn mul_17_in_pieces(a: i32, b: u32) -> i32 {
 
 /// `round(dx r / 2^12)` for `dx` of 10 bits and a sign, and `r` below 2^31.
 #[inline(always)]
-#[must_use]
 pub const fn slope_of(dx: i32, r: u32) -> i32 {
     if SHORT {
         slope_in_pieces(dx, r)
