@@ -70,10 +70,8 @@ impl Sphere {
         lines: &Range<u16>,
         model: &Affine,
     ) -> bool {
-        let projection = Projection::new(camera, screen, model);
-        let (left, top) = (screen.left(), screen.top());
-        let columns = left..left + i32::from(screen.width());
-        let lines = top + i32::from(lines.start)..top + i32::from(lines.end);
+        let projection = Projection::new(camera, model);
+        let (width, height) = (screen.width(), screen.height());
         let rows = projection.rows.map(|row| row.map(i64::from));
         let at = |i: usize| along(projection.rows[i], self.centre, projection.offset[i]);
         let z = i64::from(at(2));
@@ -85,11 +83,11 @@ impl Sphere {
         // X = v 2^power / z in units of 1/8 pixel; both sides are multiplied by z > 0.
         let up = projection.power.clamp(0, 30);
         let down = (-projection.power).clamp(0, 16);
-        [(at(0), &columns), (at(1), &lines)]
+        [(width, &(0..width)), (height, lines)]
             .into_iter()
             .enumerate()
-            .any(|(axis, (v, range))| {
-                let middle = i64::from(projection.centre[axis]);
+            .any(|(axis, (side, range))| {
+                let (v, middle) = (at(axis), 4 * i64::from(side));
                 let edges = [
                     (8 * i64::from(range.start) - middle - MARGIN, 1),
                     (8 * i64::from(range.end) - middle + MARGIN, -1),

@@ -10,7 +10,7 @@ use super::camera::{Camera, Screen};
 use super::colour::{Scale, Tint};
 use super::lighting::{Lamps, Lighting, Shine};
 use super::transform::{Affine, unit};
-use crate::num::{Block, I2F14, leading_zeros, mul_high_unsigned, shift_round};
+use crate::num::{I2F14, leading_zeros, mul_high_unsigned};
 
 impl Affine {
     /// The normal of a surface that is moved by this, about unit length in Q1.14.
@@ -47,16 +47,10 @@ impl PixelLamps {
     /// turns.
     #[must_use]
     pub fn new(lighting: &Lighting<'_>, camera: &Camera, screen: Screen) -> Self {
-        let focal: Block<1> = camera.focal;
-        let [focal] = focal.mantissa.map(|f| {
-            // In 1/8 pixels, below 2^23; here with 5 fraction bits.
-            shift_round(i64::from(f), focal.exponent - 30 + 5)
-        });
-        let focal = focal.clamp(1, 1 << 29) as i32;
-        let first = [screen.left(), screen.top()];
-        let first =
-            [0, 1].map(|i| (screen.centre()[i] - camera.shift[i] - (8 * first[i] + 4)) << 5);
+        // In 1/8 pixels, below 2^23; here with 5 fraction bits.
+        let focal = camera.focal.scaled(0, 5).clamp(1, 1 << 29) as i32;
         let sides = [screen.width(), screen.height()].map(i32::from);
+        let first = [0, 1].map(|i| (4 * sides[i] - 4 - camera.shift[i]) << 5);
         let reach = |i: usize| {
             let last = first[i] - 256 * (sides[i] - 1);
             first[i].unsigned_abs().max(last.unsigned_abs())
@@ -91,7 +85,6 @@ impl PixelLamps {
     /// Colours of a pixel of the picture in this light, of a normal of any length: channels of 16 bits, of formats with
     /// so many steps, as its own colour is; none above the full step.
     #[inline(always)]
-    #[must_use]
     pub(crate) fn lit(
         &self,
         normal: [i16; 3],

@@ -4,7 +4,7 @@
 //! such that no vertex of the mesh can leave 31 bits, whatever the matrices are. The screen's
 //! focal length enters as a mantissa in the x and y rows and a power of two at the very end.
 
-use super::camera::{Camera, Screen};
+use super::camera::Camera;
 use super::mesh::Coordinate;
 use super::transform::Affine;
 use crate::num::{few_leading_zeros, mul_wide, shift_round};
@@ -24,13 +24,11 @@ pub(crate) struct Projection {
     pub(crate) far: i32,
     /// The near plane is a mantissa in 2^30 ..< 2^31 times 2^-near_down.
     pub(crate) near_down: i32,
-    /// The principal point in units of 1/8 pixel of guard space.
-    pub(crate) centre: [i32; 2],
 }
 
 impl Projection {
     #[inline(never)]
-    pub(crate) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
+    pub(crate) fn new(camera: &Camera, model: &Affine) -> Self {
         let map = model.then(&camera.seen);
         // A vertex is within 2 each way, so a row reaches at most twice the sum of its entries.
         let mut row_bits = -200;
@@ -63,7 +61,6 @@ impl Projection {
             near: clamp(camera.near.scaled(0, scale)),
             far: clamp(camera.far.scaled(0, scale)),
             near_down: 31 - camera.near.exponent - scale,
-            centre: screen.centre(),
         }
     }
 }

@@ -70,14 +70,11 @@ pub(super) struct View {
 impl View {
     #[inline(never)]
     pub(super) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
-        let projection = Projection::new(camera, screen, model);
+        let projection = Projection::new(camera, model);
         let (mut rows, mut offset) = (projection.rows, projection.offset);
-        let (near, far, near_down) = (projection.near, projection.far, projection.near_down);
         // What x and y lose, or, for long focal lengths, z.
         let down = FOCAL_BITS - projection.power;
         let (cross, along) = (down.clamp(0, 31), (-down).clamp(0, 31));
-        let finer_rows = [rows[0], rows[1]];
-        let finer_offset = [offset[0], offset[1]];
         for i in 0..3 {
             let shift = if i < 2 { cross } else { along };
             let scaled = |v: i32| rounded(v, shift);
@@ -85,21 +82,17 @@ impl View {
             offset[i] = scaled(offset[i]);
         }
         let range = |v: i32| rounded(v, along).max(1);
-        let centre = |axis: usize| {
-            let first = [screen.left(), screen.top()][axis];
-            let from_first = i64::from(projection.centre[axis]) - 8 * i64::from(first);
-            // Less the half space that a signed quotient is taken from.
-            (((from_first + 8 * i64::from(ORIGIN) - 0x8000) << 14) + (1 << 13)) as i32
-        };
+        // In the middle, less the half space that a signed quotient is taken from.
+        let centre = |side: u16| ((4 * i32::from(side) + 8 * ORIGIN - 0x8000) << 14) + (1 << 13);
         Self {
             rows,
             offset,
-            near: range(near),
-            far: range(far),
-            down: near_down + along + 1,
-            centre: [centre(0), centre(1)],
-            finer_rows,
-            finer_offset,
+            near: range(projection.near),
+            far: range(projection.far),
+            down: projection.near_down + along + 1,
+            centre: [centre(screen.width()), centre(screen.height())],
+            finer_rows: [projection.rows[0], projection.rows[1]],
+            finer_offset: [projection.offset[0], projection.offset[1]],
             finer: cross,
         }
     }
@@ -121,11 +114,8 @@ impl View {
     #[inline(always)]
     pub(super) fn point<C: Coordinate>(&self, p: [C; 3]) -> Point {
         let row = |i: usize| along(self.rows[i], p, self.offset[i]);
-        Point {
-            x: row(0),
-            y: row(1),
-            z: row(2),
-        }
+        let [x, y, z] = [row(0), row(1), row(2)];
+        Point { x, y, z }
     }
 
     /// The point of a position that is seen at a point, with all bits that x and y can have: a cut at the near plane
