@@ -53,45 +53,27 @@ pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), Mes
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
         return Err(MeshError::AttributeLength);
     }
-    match mesh.faces {
+    // Faces take so many indices each, a strip two more before the first.
+    let (indices, first, each) = match mesh.faces {
+        Faces::Triangles(faces) => (faces.as_flattened(), 0, 3),
+        Faces::Quads(faces, _) => (faces.as_flattened(), 0, 4),
         Faces::QuadStrip(strip, _) if strip.len() % 2 != 0 || strip.len() == 2 => {
             return Err(MeshError::StripLength);
         }
-        _ => {}
-    }
-    if below <= count {
-        return Ok(());
-    }
-    let good = |face: &[u16]| face.iter().all(|&i| usize::from(i) < count);
-    if all_below(mesh.faces, count) {
-        return Ok(());
-    }
-    let bad = match mesh.faces {
-        Faces::Triangles(faces) => faces.iter().position(|f| !good(f)),
-        Faces::Quads(faces, _) => faces.iter().position(|f| !good(f)),
-        Faces::QuadStrip(strip, _) => strip
-            .iter()
-            .position(|&i| usize::from(i) >= count)
-            .map(|i| i.saturating_sub(2) / 2),
+        Faces::QuadStrip(strip, _) => (strip, 2, 2),
     };
-    match bad {
-        Some(face) => Err(MeshError::Index { face: face as u32 }),
+    if below <= count || are_below(indices, count) {
+        return Ok(());
+    }
+    match indices.iter().position(|&i| usize::from(i) >= count) {
+        Some(bad) => Err(MeshError::Index {
+            face: (bad.saturating_sub(first) / each) as u32,
+        }),
         None => Ok(()),
     }
 }
 
 /// Whether all indices are below `count`: three instructions each on a Cortex-M4.
-#[inline]
-fn all_below(faces: Faces<'_>, count: usize) -> bool {
-    let indices = match faces {
-        Faces::Triangles(faces) => faces.as_flattened(),
-        Faces::Quads(faces, _) => faces.as_flattened(),
-        Faces::QuadStrip(strip, _) => strip,
-    };
-    are_below(indices, count)
-}
-
-/// One copy of the loop, whatever the faces are.
 #[inline(never)]
 fn are_below(indices: &[u16], count: usize) -> bool {
     let last = count.min(1 << 16) as i32 - 1;
