@@ -29,34 +29,34 @@ impl Scale {
     /// For `steps` above 0 in red, green and blue, each 1 to 255.
     #[must_use]
     pub const fn new(steps: [u16; 3]) -> Self {
-        let mut scale = Self {
-            factor: [0; 3],
-            fraction: [0; 3],
-            full: [0; 3],
-        };
+        let (mut full, mut fraction) = ([0; 3], [0; 3]);
         let mut i = 0;
         while i < 3 {
-            let steps = steps[i] as u32;
-            let fraction = FIELD_BITS[i] - 1 - steps.ilog2();
-            scale.fraction[i] = fraction;
-            scale.full[i] = steps << fraction;
-            scale.factor[i] = (((steps << fraction) << 8) + 127) / 255;
+            fraction[i] = FIELD_BITS[i] - 1 - steps[i].ilog2();
+            full[i] = (steps[i] as u32) << fraction[i];
             i += 1;
         }
-        scale
+        Self::of(full, fraction)
+    }
+
+    /// Of fields of level 255, and fraction bits.
+    const fn of(full: [u32; 3], fraction: [u32; 3]) -> Self {
+        let mut factor = full;
+        let mut i = 0;
+        while i < 3 {
+            factor[i] = ((full[i] << 8) + 127) / 255;
+            i += 1;
+        }
+        Self {
+            factor,
+            fraction,
+            full,
+        }
     }
 
     /// For shades of texels: full light is 1,024, 1,024 and 512 of a field, and a margin of 2, 2 and 1 stays to either
     /// end.
-    pub(crate) const SHADE: Self = Self {
-        factor: [
-            ((1024 << 8) + 127) / 255,
-            ((1024 << 8) + 127) / 255,
-            ((512 << 8) + 127) / 255,
-        ],
-        fraction: [2, 2, 1],
-        full: [1024, 1024, 512],
-    };
+    pub(crate) const SHADE: Self = Self::of([1024, 1024, 512], [2, 2, 1]);
 
     /// The word of white in full light.
     pub(crate) const fn full_word(&self) -> u32 {
@@ -112,9 +112,7 @@ impl Tint {
         }
         Colour::from_fields(field)
     }
-}
 
-impl Tint {
     /// In light of several colours; stops at full level, within 1/8 of a field's unit before
     /// rounding.
     #[inline]

@@ -32,20 +32,10 @@ impl Light {
     /// whatever the lengths of the two and the ambient level are.
     #[must_use]
     pub fn level(&self, normal: [i16; 3]) -> U1F15 {
-        let dot: i64 = [0, 1, 2]
-            .iter()
-            .map(|&i| i64::from(normal[i]) * i64::from(self.direction[i].to_bits()))
-            .sum();
+        let part = |i: usize| i64::from(normal[i]) * i64::from(self.direction[i].to_bits());
         // Beyond 1 all levels are alike.
-        let dot = dot.clamp(-1 << 28, 1 << 28) as i32;
+        let dot = (part(0) + part(1) + part(2)).clamp(-1 << 28, 1 << 28) as i32;
         level(cosine(dot), self.ambient.min(U1F15::ONE))
-    }
-
-    /// The same where the direction is a unit vector and the ambient level at most 1, as those of
-    /// a light in model space are.
-    #[inline(always)]
-    fn level_of_unit(&self, normal: [i16; 3]) -> U1F15 {
-        level(self.cosine(normal), self.ambient)
     }
 
     /// The product of a normal with the direction where that is a unit vector, in Q15.
@@ -68,10 +58,11 @@ impl Light {
         }
     }
 
-    /// A colour in this light, which is in the space of the normal.
+    /// A colour in this light, which is in the space of the normal: its direction is a unit vector, and its ambient level
+    /// at most 1.
     #[inline(always)]
     pub(crate) fn lit(&self, tint: &Tint, normal: [i16; 3]) -> Colour {
-        tint.lit(self.level_of_unit(normal).to_bits())
+        tint.lit(level(self.cosine(normal), self.ambient).to_bits())
     }
 
     /// The same as a word, where one that the light does not reach is known.
@@ -163,7 +154,10 @@ mod tests {
                 [8_192, 0, 0],
                 [i16::MIN; 3],
             ] {
-                assert_eq!(model.level_of_unit(normal), light.level(normal));
+                assert_eq!(
+                    level(model.cosine(normal), model.ambient),
+                    light.level(normal)
+                );
                 assert!(light.level(normal) <= U1F15::ONE);
                 assert!(light.level(normal) >= ambient.min(U1F15::ONE));
             }

@@ -21,10 +21,7 @@
 use super::colour::{Colour, Scale, Tint};
 use super::light::{direction, level_of};
 use super::transform::Affine;
-use crate::num::{
-    Block, I2F14, U1F15, inverse_root, leading_zeros, mul_16, mul_high, mul_high_unsigned,
-    shift_round,
-};
+use crate::num::{I2F14, U1F15, inverse_root, leading_zeros, mul_16, mul_high, mul_high_unsigned};
 
 /// A light from infinitely far, with a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,14 +126,12 @@ impl<'a> Lighting<'a> {
     /// In the space of a model, by the maps from there to the world and on to the camera.
     #[inline(never)]
     pub(crate) fn in_model(&self, model: &Affine, view: &Affine) -> LampsInModel {
-        let eye: Block<3> = model.then(view).origin_in_model();
+        let eye = model.then(view).origin_in_model();
         // Twice as far as the eye or any vertex, so that their difference fits.
         let power = eye.exponent.max(1) + 1;
         LampsInModel {
             lamps: Lamps::new(self, |l| model.direction_to_model_q30(l)),
-            eye: eye
-                .mantissa
-                .map(|c| shift_round(i64::from(c), eye.exponent - power) as i32),
+            eye: [0, 1, 2].map(|i| eye.scaled(i, 30 - power) as i32),
             power: power.min(31) as u32,
         }
     }
@@ -275,13 +270,7 @@ impl Lamps {
     pub(super) fn dim(&self) -> u32 {
         // Some units more than it may be by rounding.
         let is_none = |part: u32| power((part << 24) + (1 << 20), self.shininess) >> 16 == 0;
-        let more = |part: u32, bit: u32| {
-            if is_none(part | bit) {
-                part | bit
-            } else {
-                part
-            }
-        };
+        let more = |part, bit| part | if is_none(part | bit) { bit } else { 0 };
         let part = (0..8).rev().map(|i| 1 << i).fold(0, more);
         (part * part) << 14
     }
@@ -417,13 +406,6 @@ pub struct LampsInModel {
 }
 
 impl LampsInModel {
-    /// The way from a place to the eye, its largest component in 2^14 ..= 2^15, or all 0.
-    #[inline]
-    fn towards_eye(&self, place: [i32; 3]) -> [i32; 3] {
-        let d = [0, 1, 2].map(|i| self.eye[i] - (place[i] >> self.power));
-        fifteen_bits(d)
-    }
-
     /// A colour in these lights, with a normal at a place in Q1.30.
     #[inline(never)]
     pub(crate) fn lit(
@@ -433,7 +415,8 @@ impl LampsInModel {
         normal: [i16; 3],
         place: [i32; 3],
     ) -> Colour {
-        let shine = self.lamps.shine(normal, || self.towards_eye(place));
+        let to_eye = || [0, 1, 2].map(|i| self.eye[i] - (place[i] >> self.power));
+        let shine = self.lamps.shine(normal, || fifteen_bits(to_eye()));
         tint.shone_on(&shine, scale)
     }
 }

@@ -62,25 +62,23 @@ impl TryFrom<&Affine> for Matrix {
 
     /// Exact, but for parts below 2^-128, which become 0.
     fn try_from(a: &Affine) -> Result<Self, MatrixRange> {
-        let exponent = |e: i32| match e {
-            97.. => Err(MatrixRange),
-            e => Ok(e.max(-128) as i16),
-        };
-        let small = |e: i32| e < -128;
+        let (linear, linear_exponent) = listed(&a.linear)?;
+        let (offset, offset_exponent) = listed(&a.offset)?;
         Ok(Self {
-            linear: if small(a.linear.exponent) {
-                [0; 9]
-            } else {
-                a.linear.mantissa
-            },
-            linear_exponent: exponent(a.linear.exponent)?,
-            offset: if small(a.offset.exponent) {
-                [0; 3]
-            } else {
-                a.offset.mantissa
-            },
-            offset_exponent: exponent(a.offset.exponent)?,
+            linear,
+            linear_exponent,
+            offset,
+            offset_exponent,
         })
+    }
+}
+
+/// Mantissas and their exponent, as a list has them.
+fn listed<const N: usize>(block: &Block<N>) -> Result<([i32; N], i16), MatrixRange> {
+    match block.exponent {
+        97.. => Err(MatrixRange),
+        -128.. => Ok((block.mantissa, block.exponent as i16)),
+        _ => Ok(([0; N], -128)),
     }
 }
 

@@ -94,13 +94,14 @@ pub enum CutError {
 
 impl fmt::Display for CutError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("mesh: ")?;
         match self {
-            Self::Index { face } => write!(f, "mesh: face {face} names a vertex that is not there"),
-            Self::Parts { have } => write!(f, "mesh: more parts than the {have} there is room for"),
+            Self::Index { face } => write!(f, "face {face} names a vertex that is not there"),
+            Self::Parts { have } => write!(f, "more parts than the {have} there is room for"),
             Self::Vertices { have } => {
                 write!(
                     f,
-                    "mesh: more vertices of parts than the {have} there is room for"
+                    "more vertices of parts than the {have} there is room for"
                 )
             }
         }
@@ -152,25 +153,20 @@ impl<'a> Meshlets<'a> {
         vertices: &'a [u16],
     ) -> Result<Self, MeshError> {
         let (mut rest, mut listed) = (faces, vertices);
+        let wrong = MeshError::Meshlets;
         for part in parts {
-            let (Some((some, others)), Some((list, after))) = (
-                rest.split_at_checked(part.faces.into()),
-                listed.split_at_checked(part.vertices.into()),
-            ) else {
-                return Err(MeshError::Meshlets);
-            };
+            let (some, list);
+            (some, rest) = rest.split_at_checked(part.faces.into()).ok_or(wrong)?;
+            (list, listed) = listed.split_at_checked(part.vertices.into()).ok_or(wrong)?;
             if !some.as_flattened().iter().all(|i| list.contains(i)) {
-                return Err(MeshError::Meshlets);
+                return Err(wrong);
             }
-            (rest, listed) = (others, after);
         }
         if !rest.is_empty() || !listed.is_empty() {
-            return Err(MeshError::Meshlets);
+            return Err(wrong);
         }
-        let end = vertices
-            .iter()
-            .max()
-            .map_or(0, |&most| usize::from(most) + 1);
+        let most = vertices.iter().max();
+        let end = most.map_or(0, |&most| usize::from(most) + 1);
         Ok(Self {
             faces,
             parts,
@@ -219,13 +215,9 @@ impl<C: Coordinate> Cutter<'_, C> {
 
     /// How far faces reach on an axis.
     fn range(&self, faces: &[[u16; 3]], axis: usize) -> i64 {
-        let ends = faces
-            .iter()
-            .fold((i64::MAX, i64::MIN), |(low, high), face| {
-                let key = self.key(face, axis);
-                (low.min(key), high.max(key))
-            });
-        ends.1.saturating_sub(ends.0)
+        let keys = faces.iter().map(|face| self.key(face, axis));
+        let (low, high) = (keys.clone().min(), keys.max());
+        high.unwrap_or(0) - low.unwrap_or(0)
     }
 
     /// Parts of some faces.
@@ -275,18 +267,16 @@ impl<C: Coordinate> Cutter<'_, C> {
         let points = self.vertices.get_mut(self.listed..self.listed + listed);
         let points = points.unwrap_or_default();
         points.sort_unstable();
-        let of = |&i: &u16| self.positions.get(usize::from(i)).map(|p| p.map(C::to_q30));
+        let of = |&i: &u16| place_of(self.positions, i.into());
         let mut part = Meshlet {
             faces: faces.len() as u16,
             vertices: listed as u16,
-            sphere: Sphere::of(points.iter().filter_map(of)),
+            sphere: Sphere::of(points.iter().map(of)),
             ..Meshlet::EMPTY
         };
         self.find_cone(faces, &mut part);
-        *self
-            .parts
-            .get_mut(self.parts_made)
-            .ok_or(CutError::Parts { have })? = part;
+        let slot = self.parts.get_mut(self.parts_made);
+        *slot.ok_or(CutError::Parts { have })? = part;
         self.parts_made += 1;
         self.listed += listed;
         Ok(())
@@ -378,15 +368,8 @@ fn is_similar(map: &Affine) -> bool {
     let row = |i: usize| [m[3 * i], m[3 * i + 1], m[3 * i + 2]];
     let [a, b, c] = [row(0), row(1), row(2)];
     let square = dot(a, a);
-    let is_little = |value: i64| value.abs() <= square >> 14;
-    [
-        dot(b, b) - square,
-        dot(c, c) - square,
-        dot(a, b),
-        dot(b, c),
-        dot(c, a),
-    ]
-    .into_iter()
-    .all(is_little)
-        && dot(cross(a, b), c) > 0
+    let stretch = [dot(b, b) - square, dot(c, c) - square];
+    let skew = [dot(a, b), dot(b, c), dot(c, a)];
+    let mut all = stretch.iter().chain(&skew);
+    all.all(|value| value.abs() <= square >> 14) && dot(cross(a, b), c) > 0
 }

@@ -40,11 +40,8 @@ pub struct ShadowEdge {
 impl ShadowEdge {
     /// From where to where the face goes.
     const fn directed(self) -> [u16; 2] {
-        if self.rises {
-            self.ends
-        } else {
-            [self.ends[1], self.ends[0]]
-        }
+        let [low, high] = self.ends;
+        if self.rises { [low, high] } else { [high, low] }
     }
 }
 
@@ -221,18 +218,14 @@ impl Extrusion {
         // Of those between the same vertices, what one way has more than the other.
         let (mut kept, mut i) = (0, 0);
         while let Some(&edge) = edges.get(i) {
-            let (mut up, mut down) = (0, 0);
+            let mut more = 0i32;
             while let Some(other) = edges.get(i).filter(|other| other.ends == edge.ends) {
-                if other.rises {
-                    up += 1;
-                } else {
-                    down += 1;
-                }
+                more += if other.rises { 1 } else { -1 };
                 i += 1;
             }
-            for _ in 0..usize::abs_diff(up, down) {
+            for _ in 0..more.unsigned_abs() {
                 edges[kept] = ShadowEdge {
-                    rises: up > down,
+                    rises: more > 0,
                     ..edge
                 };
                 kept += 1;

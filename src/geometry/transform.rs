@@ -22,9 +22,8 @@ impl Affine {
     /// `None` when a number is not finite or beyond 2^96.
     #[must_use]
     pub fn from_rows(rows: [[f32; 3]; 3], offset: [f32; 3]) -> Option<Self> {
-        let [a, b, c] = rows;
         Some(Self {
-            linear: Block::from_f32([a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]])?,
+            linear: Block::from_f32(bytemuck::cast::<_, [f32; 9]>(rows))?,
             offset: Block::from_f32(offset)?,
         })
     }
@@ -32,10 +31,8 @@ impl Affine {
     /// A uniform scale followed by a translation; `None` as in [`from_rows`](Affine::from_rows).
     #[must_use]
     pub fn placed(scale: f32, offset: [f32; 3]) -> Option<Self> {
-        Self::from_rows(
-            [[scale, 0.0, 0.0], [0.0, scale, 0.0], [0.0, 0.0, scale]],
-            offset,
-        )
+        let rows = [[scale, 0.0, 0.0], [0.0, scale, 0.0], [0.0, 0.0, scale]];
+        Self::from_rows(rows, offset)
     }
 
     /// A rotation about the x axis by `angle` radians, counter-clockwise seen from its tip: any
@@ -79,10 +76,8 @@ impl Affine {
         let b = &self.linear.mantissa;
         let mut linear = [0i64; 9];
         for column in 0..3 {
-            let times = times(
-                &next.linear.mantissa,
-                [b[column], b[3 + column], b[6 + column]],
-            );
+            let from = [b[column], b[3 + column], b[6 + column]];
+            let times = times(&next.linear.mantissa, from);
             for (row, value) in times.into_iter().enumerate() {
                 linear[3 * row + column] = value;
             }
@@ -144,8 +139,7 @@ impl Affine {
     /// Of rows in Q30.
     #[inline(never)]
     pub(super) fn of_units(rows: [[i32; 3]; 3]) -> Self {
-        let [[a, b, c], [d, e, f], [g, h, i]] = rows;
-        let linear = [a, b, c, d, e, f, g, h, i].map(i64::from);
+        let linear = bytemuck::cast::<_, [i32; 9]>(rows).map(i64::from);
         Self {
             linear: Block::new(linear, 0),
             offset: Block::ZERO,
@@ -154,12 +148,9 @@ impl Affine {
 
     /// The first two rows of the nearest turn, in Q1.14; zeros where there is none.
     pub(crate) fn rows_q14(&self) -> [[i32; 3]; 2] {
-        let turn = self.orthonormalised().map(|turn| turn.linear);
-        let entry = |i: usize| {
-            let linear = turn.as_ref()?;
-            Some(shift_round(i64::from(linear.mantissa[i]), linear.exponent - 16) as i32)
-        };
-        [0, 3].map(|row| [0, 1, 2].map(|i| entry(row + i).unwrap_or(0)))
+        let turn = self.orthonormalised();
+        let linear = turn.map_or(Block::ZERO, |turn| turn.linear);
+        [0, 3].map(|row| [0, 1, 2].map(|i| linear.scaled(row + i, 14) as i32))
     }
 
     /// The linear part times a vector.
@@ -183,15 +174,15 @@ impl Affine {
 
     /// The transpose of the linear part times a direction, of any length below 2^32.
     fn transposed_times(&self, direction: [I2F14; 3]) -> [i64; 3] {
+        let v = direction.map(|c| i32::from(c.to_bits()));
+        self.dots_with_columns(v).map(|c| c >> 14)
+    }
+
+    /// The transpose of the linear part times a vector.
+    #[inline(never)]
+    fn dots_with_columns(&self, v: [i32; 3]) -> [i64; 3] {
         let m = &self.linear.mantissa;
-        let mut v = [0i64; 3];
-        for (i, value) in v.iter_mut().enumerate() {
-            for k in 0..3 {
-                *value += mul_wide(m[k * 3 + i], direction[k].to_bits().into());
-            }
-            *value >>= 14;
-        }
-        v
+        [0, 1, 2].map(|i| dot([m[i], m[3 + i], m[6 + i]], v))
     }
 
     /// The linear part times a direction.
@@ -212,7 +203,7 @@ impl Affine {
     /// Right for rotations and uniform scales, as above.
     pub(super) fn origin_in_model(&self) -> Block<3> {
         let m = &self.linear.mantissa;
-        let along = [0, 1, 2].map(|i| dot([m[i], m[3 + i], m[6 + i]], self.offset.mantissa));
+        let along = self.dots_with_columns(self.offset.mantissa);
         // The scale squared: the mean of the rows, times 3.
         let square: i64 = m.iter().map(|&c| mul_wide(c, c) / 4).sum();
         let (along, square) = (Block::new(along, 0), Block::new([square], 0));
@@ -222,12 +213,10 @@ impl Affine {
             return Block::ZERO;
         }
         // 12 / 4 of the scale squared is 3 of them. Below 2^31: the divisor has 30 bits, and what is divided up to 60.
-        let ratio = along
-            .mantissa
-            .map(|c| divide_signed((-3 * i64::from(c)) << 28, divisor));
-        let exponent =
-            along.exponent - square.exponent + self.offset.exponent - self.linear.exponent;
-        Block::new(ratio, exponent)
+        let ratio = |c: i32| divide_signed((-3 * i64::from(c)) << 28, divisor);
+        let exponent = along.exponent + self.offset.exponent;
+        let exponent = exponent - square.exponent - self.linear.exponent;
+        Block::new(along.mantissa.map(ratio), exponent)
     }
 }
 
