@@ -28,7 +28,7 @@ type Step = u32;
 /// The step that a span belongs to.
 fn step_of(role: Role) -> Option<Step> {
     match role {
-        Role::None => None,
+        Role::None | Role::Translucent => None,
         Role::Front(light) | Role::Back(light) => Some(2 * Step::from(light)),
         Role::Lit(light) | Role::Shadowed(light) => Some(2 * Step::from(light) + 1),
     }
@@ -46,7 +46,7 @@ impl Lights {
     /// These and that of something more.
     fn with(mut self, role: Role) -> Self {
         match role {
-            Role::None => {}
+            Role::None | Role::Translucent => {}
             Role::Front(light) | Role::Back(light) => self.with_volumes |= bit(light.into()),
             Role::Lit(light) => self.with_lit |= bit(light.into()),
             Role::Shadowed(light) => self.with_shadowed |= bit(light.into()),

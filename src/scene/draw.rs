@@ -2,7 +2,7 @@
 
 use super::alpha::Alphas;
 use super::form::Square;
-use super::late::{Late, Role};
+use super::late::Role;
 use super::texgen::TexGen;
 use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Shadow, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
@@ -233,7 +233,8 @@ pub struct DrawState<'t> {
     /// Whether its texture has a mask that is looked at.
     pub(crate) has_mask: bool,
     pub(crate) priority: u8,
-    late: Late,
+    /// What it has to do with shadows.
+    role: Role,
     /// The colour that light at pixels falls on, and that light.
     pub(crate) colour: [u8; 3],
     pub(crate) lamps: Option<&'t PixelLamps>,
@@ -260,14 +261,6 @@ impl Holes {
             bits >> 1 | u32::from(texel != self.key) << 31
         })
     }
-
-    fn of(texture: &Texture<'_>, application: Application) -> Option<Self> {
-        let key = texture.key()?;
-        Some(Self {
-            key,
-            are_filled: application == Application::Decal,
-        })
-    }
 }
 
 impl<'t> DrawState<'t> {
@@ -283,7 +276,7 @@ impl<'t> DrawState<'t> {
         dithers: false,
         has_mask: false,
         priority: 0,
-        late: Late::NOT,
+        role: Role::None,
         colour: [0; 3],
         lamps: None,
         holes: None,
@@ -292,35 +285,35 @@ impl<'t> DrawState<'t> {
 
     /// That of a call whose first triangle has this number.
     pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, master: Master) -> Self {
-        let skin = draw
-            .texture
-            .as_ref()
-            .filter(|_| master.has(Master::TEXTURE));
+        let skin = draw.texture.filter(|_| master.has(Master::TEXTURE));
         let texture = skin.map(|skin| skin.texture);
         let blend = draw.blend.filter(|_| master.has(Master::BLEND));
-        let role = Role::of(draw.shadow, master);
-        let depth = role.depth(draw.depth);
         let dithers = draw.dither && master.has(Master::DITHER);
-        let is_asked = dithers || blend.is_some_and(|blend| blend.is_translucent());
+        let is_blended = blend.is_some_and(|blend| blend.is_translucent());
+        let role = Role::of(draw.shadow, is_blended, master);
+        let depth = role.depth(draw.depth);
         Self {
             first,
             texture,
             budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
             scissor: draw.scissor,
-            depth: match blend {
+            depth: match is_blended {
                 _ if !master.has(Master::DEPTH) => DepthTest::HIDES,
-                Some(blend) if blend.is_translucent() => depth.without_write(),
-                _ => depth,
+                true => depth.without_write(),
+                false => depth,
             },
             blend,
             alphas: None,
             dithers,
-            has_mask: is_asked && texture.is_some_and(|texture| texture.mask.is_some()),
+            has_mask: (dithers || is_blended) && texture.is_some_and(|t| t.mask.is_some()),
             priority: draw.priority,
-            late: Late::of(role, blend),
+            role,
             colour: draw.colour,
             lamps: draw.lamps.filter(|_| master.has(Master::SHADING)),
-            holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
+            holes: texture.and_then(Texture::key).map(|key| Holes {
+                key,
+                are_filled: draw.application == Application::Decal,
+            }),
             square: texture.and_then(Texture::plain_square),
         }
     }
@@ -373,29 +366,31 @@ impl<'t> DrawState<'t> {
     /// Whether what is behind shines through, and it is drawn after all that is opaque.
     #[inline(always)]
     pub(crate) fn is_translucent(&self) -> bool {
-        self.late.is_translucent()
+        self.role == Role::Translucent
     }
 
     /// Whether it is drawn after all that is opaque, where depth is compared.
     #[inline(always)]
     pub(crate) fn waits(&self) -> bool {
-        self.late.waits()
+        self.role != Role::None
     }
 
     /// Whether nothing is to be seen of it where nothing is counted.
     #[inline(never)]
     pub(crate) fn is_in_vain(&self) -> bool {
-        !matches!(self.role(), Role::None | Role::Lit(_))
+        !matches!(self.role, Role::None | Role::Translucent | Role::Lit(_))
     }
 
     /// What it has to do with shadows.
     pub(crate) fn role(&self) -> Role {
-        self.late.role()
+        self.role
     }
 
     /// Says that a volume's triangles are seen from inside.
     pub(super) fn turn(&mut self) {
-        self.late = self.late.turned();
+        if let Role::Front(light) = self.role {
+            self.role = Role::Back(light);
+        }
     }
 
     /// The columns of a line that are kept, from left to right; either run may be empty.
