@@ -122,14 +122,6 @@ impl<'t> Texture<'t> {
         Err(TextureError::Mask)
     }
 
-    /// Whether it has a mask that has not so many levels below it.
-    pub(super) const fn has_mask_of_other_levels(&self, levels: usize) -> bool {
-        match self.mask {
-            Some(mask) => mask.levels() != levels,
-            None => false,
-        }
-    }
-
     /// Its mask, which is read as it is itself.
     pub(crate) fn mask(&self) -> Option<Texture<'t>> {
         let mut mask = *self.mask?;
@@ -168,10 +160,9 @@ pub(crate) struct Alphas {
 impl Alphas {
     /// Of a mesh of which so many vertices are in memory.
     pub(super) fn new(base: usize, shared: usize) -> Self {
-        let end = (base + shared) as u16;
         Self {
             base: base as u16,
-            end,
+            end: (base + shared) as u16,
         }
     }
 
@@ -201,11 +192,7 @@ pub(super) const fn records(alphas: usize) -> usize {
 /// A record: on no line.
 fn record(bytes: [u8; A_RECORD]) -> Vertex {
     let [depth, colour] = bytemuck::cast(bytes);
-    Vertex {
-        place: Vertex::OUTSIDE,
-        depth,
-        colour,
-    }
+    Vertex::new(Vertex::OUTSIDE, depth, colour)
 }
 
 /// Keeps the alphas of a mesh's vertices.

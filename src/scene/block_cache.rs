@@ -109,7 +109,7 @@ impl CacheWord {
 }
 
 /// Decodes the block of an index: `Compressed::load`.
-type Load = fn(&Compressed<'_>, u32, Blocked, u32, &[CacheWord]) -> u16;
+type Load<'m> = fn(&Compressed<'m>, u32, Blocked, u32, &[CacheWord]) -> u16;
 
 /// Where blocks come from.
 #[derive(Debug)]
@@ -117,7 +117,7 @@ enum Slow<'m> {
     /// Words or indices, in blocks as the cache has them.
     Stored(Form<'m>),
     /// What has to be decoded, and by which code: a program that names no such texture does not have it.
-    Compressed(Compressed<'m>, Load),
+    Compressed(Compressed<'m>, Load<'m>),
 }
 
 /// Blocks of a texture in fast memory.
@@ -176,9 +176,7 @@ impl<'m> BlockCache<'m> {
         words: &'m mut [CacheWord],
     ) -> Result<Self, CacheError> {
         let sides = slow.sides;
-        let slow = Slow::Compressed(slow, |slow, index, layout, upper, words| {
-            slow.load(index, layout, upper, words)
-        });
+        let slow = Slow::Compressed(slow, Compressed::load);
         Self::of(slow, sides, Blocked::COMPRESSED, words)
     }
 
@@ -243,15 +241,12 @@ impl<'m> BlockCache<'m> {
             }
         }
         let [width, height] = [self.block.width(), self.block.height()];
-        let [columns, rows] = [(columns, width), (rows, height)].map(|(texels, side)| {
-            let end = if texels.is_empty() {
-                0
-            } else {
-                texels.end.div_ceil(side)
-            };
-            texels.start / side..end
-        });
         let mut loaded = 0;
+        if columns.is_empty() || rows.is_empty() {
+            return Ok(loaded);
+        }
+        let columns = columns.start / width..columns.end.div_ceil(width);
+        let rows = rows.start / height..rows.end.div_ceil(height);
         for row in rows {
             for column in columns.clone() {
                 let first = self.block.place(column * width, row * height, across);

@@ -34,7 +34,6 @@ impl Budget {
 
     /// Whether it leaves room for places in one word, which are off by up to 1/16 texel.
     #[inline(always)]
-    #[must_use]
     pub(crate) const fn is_coarse(self) -> bool {
         self.texels() >= 2 * RESERVE
     }

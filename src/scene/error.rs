@@ -37,20 +37,19 @@ pub enum BeginError {
 
 impl fmt::Display for BeginError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("scene: ")?;
         match self {
-            Self::Size { width, height } => write!(
-                f,
-                "scene: a picture of {width} x {height} pixels: at most {LARGEST} each way"
-            ),
-            Self::Lines { start, end, height } => write!(
-                f,
-                "scene: lines {start}..{end} of a picture of {height} lines"
-            ),
-            Self::Bins { needed, have } => {
+            Self::Size { width, height } => {
                 write!(
                     f,
-                    "scene: {needed} lines need as many bins, there are {have}"
+                    "a picture of {width} x {height} pixels: at most {LARGEST} each way"
                 )
+            }
+            Self::Lines { start, end, height } => {
+                write!(f, "lines {start}..{end} of a picture of {height} lines")
+            }
+            Self::Bins { needed, have } => {
+                write!(f, "{needed} lines need as many bins, there are {have}")
             }
         }
     }
@@ -111,39 +110,31 @@ pub enum DrawError {
 
 impl fmt::Display for DrawError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotBegun => f.write_str("scene: drawn before it was begun"),
+        f.write_str(match self {
+            Self::NotBegun => "scene: drawn before it was begun",
             Self::Mesh(MeshError::AttributeLength) => {
-                f.write_str("mesh: normals, colours, places or alphas are not as many as positions")
+                "mesh: normals, colours, places or alphas are not as many as positions"
             }
             Self::Mesh(MeshError::Index { face }) => {
-                write!(f, "mesh: face {face} names a vertex that does not exist")
+                return write!(f, "mesh: face {face} names a vertex that does not exist");
             }
             Self::Mesh(MeshError::StripLength) => {
-                f.write_str("mesh: a quad strip needs an even number of indices, and not two")
+                "mesh: a quad strip needs an even number of indices, and not two"
             }
             Self::Mesh(MeshError::Meshlets) => {
-                f.write_str("mesh: the parts are not those of its triangles and vertices")
+                "mesh: the parts are not those of its triangles and vertices"
             }
-            Self::Light => f.write_str(
-                "scene: the light is for pixels and the look of the scene for corners, or the other way",
-            ),
-            Self::Untextured => {
-                f.write_str("scene: a texture is drawn, and the look of the scene has none")
+            Self::Light => {
+                "scene: the light is for pixels and the look of the scene for corners, or the other way"
             }
-            Self::Indices => {
-                f.write_str("scene: colours are blended, and pixels are numbers of a palette")
-            }
-            Self::Shadow(room) => write!(f, "shadow: no room for all {room}"),
+            Self::Untextured => "scene: a texture is drawn, and the look of the scene has none",
+            Self::Indices => "scene: colours are blended, and pixels are numbers of a palette",
+            Self::Shadow(room) => return write!(f, "shadow: no room for all {room}"),
             Self::ShadowLight => {
-                write!(f, "shadow: lights have numbers below {}", Shadow::LIGHTS)
+                return write!(f, "shadow: lights have numbers below {}", Shadow::LIGHTS);
             }
-            Self::ShadowRanked => {
-                f.write_str("shadow: a scene has shadows or priorities, not both")
-            }
-            Self::ShadowFlat => {
-                f.write_str("shadow: points and triangles on the screen bound no volume")
-            }
+            Self::ShadowRanked => "shadow: a scene has shadows or priorities, not both",
+            Self::ShadowFlat => "shadow: points and triangles on the screen bound no volume",
             Self::Full {
                 memory,
                 triangles,
@@ -155,12 +146,12 @@ impl fmt::Display for DrawError {
                     Full::Objects => "objects",
                     Full::Draws => "draws",
                 };
-                write!(
+                return write!(
                     f,
                     "scene: the memory of {memory} is full: {triangles} triangles dropped, from face {first_face} on"
-                )
+                );
             }
-        }
+        })
     }
 }
 

@@ -22,22 +22,23 @@ pub struct Vertex {
 
 impl Vertex {
     /// What fresh memory is filled with: zeros, so that a static takes no flash.
-    pub const EMPTY: Self = Self {
-        place: 0,
-        depth: 0,
-        colour: 0,
-    };
+    pub const EMPTY: Self = Self::new(0, 0, 0);
 
     /// The colour of a vertex that no triangle has used, and of one that waits to be lit.
     const UNUSED: u32 = 0;
     const USED: u32 = 1;
 
     /// A vertex that is not transformed yet: it has to be clipped, and lies beyond no plane.
-    pub(super) const WAITING: Self = Self {
-        place: Self::OUTSIDE,
-        depth: 0,
-        colour: Self::UNUSED,
-    };
+    pub(super) const WAITING: Self = Self::unused(Self::OUTSIDE, 0);
+
+    #[inline(always)]
+    pub(super) const fn new(place: u32, depth: u32, colour: u32) -> Self {
+        Self {
+            place,
+            depth,
+            colour,
+        }
+    }
 
     /// Whether a vertex is not transformed yet.
     #[inline(always)]
@@ -47,13 +48,8 @@ impl Vertex {
 
     /// A vertex on the screen, which no triangle has used.
     #[inline(always)]
-    pub(super) fn unused(place: u32, depth: u32) -> Self {
-        let colour = Self::UNUSED;
-        Self {
-            place,
-            depth,
-            colour,
-        }
+    pub(super) const fn unused(place: u32, depth: u32) -> Self {
+        Self::new(place, depth, Self::UNUSED)
     }
 
     /// Says that a triangle that is kept has the vertex.

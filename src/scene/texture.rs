@@ -170,7 +170,7 @@ impl Sides {
 macro_rules! indexed {
     ($name:ident, $form:ident, $bits:literal, $order:literal) => {
         #[doc = concat!("Indices of ", $bits, " bits into a palette of words of the panel.")]
-        #[doc = $order]
+        #[doc = concat!($order, "; rows follow without gaps.")]
         /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
         ///
         /// # Errors
@@ -247,24 +247,24 @@ impl<'t> Texture<'t> {
         Ok(Self::new(Form::Words(texels), sides))
     }
 
-    indexed!(index8, Index8, 8, "A byte a texel, in rows from the top.");
+    indexed!(index8, Index8, 8, "A byte a texel, in rows from the top");
     indexed!(
         index4,
         Index4,
         4,
-        "The left one of two texels is in a byte's lower bits; rows follow without gaps."
+        "The left one of two texels is in a byte's lower bits"
     );
     indexed!(
         index2,
         Index2,
         2,
-        "The leftmost texel is in a byte's lowest bits; rows follow without gaps."
+        "The leftmost texel is in a byte's lowest bits"
     );
     indexed!(
         index1,
         Index1,
         1,
-        "The leftmost texel is in a byte's lowest bit; rows follow without gaps."
+        "The leftmost texel is in a byte's lowest bit"
     );
 
     /// Texels that are computed where they are shown (H17), or fetched from somewhere (B5): words of the panel, in its
@@ -327,17 +327,18 @@ impl<'t> Texture<'t> {
         while i < coarser.len() {
             let is_least = width == 1 && height == 1;
             (width, height) = (half(width), half(height));
-            let of = (coarser[i].width(), coarser[i].height());
-            if is_least || of.0 != width || of.1 != height {
+            let (of, level) = (&coarser[i], i + 1);
+            if is_least || of.width() != width || of.height() != height {
+                let (width, height) = (of.width(), of.height());
                 return Err(TextureError::Level {
-                    level: i + 1,
-                    width: of.0,
-                    height: of.1,
+                    level,
+                    width,
+                    height,
                 });
             }
-            i += 1;
+            i = level;
         }
-        if self.has_mask_of_other_levels(coarser.len()) {
+        if matches!(self.mask, Some(mask) if mask.levels() != coarser.len()) {
             return Err(TextureError::Mask);
         }
         Ok(Self {
@@ -416,7 +417,6 @@ impl<'t> Texture<'t> {
 
     /// Spare bits of places in one word, where that is how places are found; else none.
     #[inline(always)]
-    #[must_use]
     pub(crate) const fn spare(&self) -> u8 {
         self.spare
     }
