@@ -32,13 +32,9 @@ impl<'m, T> Arena<'m, T> {
     /// Appends; `None` when the arena is full.
     #[inline]
     pub(crate) fn push(&mut self, value: T) -> Option<u16> {
-        let index = self.len;
-        if index >= Self::LIMIT {
-            return None;
-        }
-        *self.items.get_mut(index)? = value;
-        self.len = index + 1;
-        Some(index as u16)
+        let index = self.len as u16;
+        *self.append(1)?.first_mut()? = value;
+        Some(index)
     }
 
     /// Appends `count` values, whatever they are, to be overwritten; `None` when there is no room

@@ -158,8 +158,7 @@ impl EventFlags {
     /// or in the next: act after taking.
     pub fn take(&self) -> EventSet {
         let mut set = EventSet::NONE;
-        for event in Event::ALL {
-            let flag = &self.raised[event as usize];
+        for (event, flag) in Event::ALL.into_iter().zip(&self.raised) {
             if flag.load(Ordering::Acquire) {
                 flag.store(false, Ordering::Release);
                 set = set.with(event);

@@ -7,13 +7,13 @@ use super::alpha::{self, Alphas};
 use super::check::{check_alphas, check_draw};
 use super::lights::Lamps;
 use super::pass::{
-    Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, light_all, light_each, top_first,
+    Normals, Pass, WordOfNormal, colour_all, colour_of, light_all, light_each, top_first,
 };
 use super::project::{View, project_all, project_textured};
-use super::texgen::project_generated;
+use super::texgen::{Generated, TexGen, project_generated};
 use super::{
     Application, Draw, DrawError, DrawState, Full, Master, NONE, ORIGIN, Object, Scene, Shading,
-    Vertex, next_change,
+    TexturePlace, Vertex, next_change,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use crate::num::rolled;
@@ -85,9 +85,7 @@ impl<'t, L> Scene<'_, 't, L> {
         submitted: u32,
         file: impl FnOnce(&mut Self, &mut Pass<'_>) -> Result<(), DrawError>,
     ) -> Result<(), DrawError> {
-        let Some(camera) = &self.camera else {
-            return Err(DrawError::NotBegun);
-        };
+        let camera = self.camera.as_ref().ok_or(DrawError::NotBegun)?;
         check_draw(draw, textured, word_of.is_some())?;
         self.check_shadow(draw.shadow, draw.priority)?;
         if self.master.leaves_out(draw.shadow) {
@@ -108,42 +106,33 @@ impl<'t, L> Scene<'_, 't, L> {
         let colour = if is_replaced { [255; 3] } else { draw.colour };
         let tint = Tint::new(colour, &self.scale);
         let (model, view) = (&draw.model, &camera.view);
-        let lamps = draw.lights.map(|lights| Lamps::new(lights, model, view));
+        let lamps = draw.lights.map(|lights| Lamps {
+            lights,
+            in_model: lights.to_model(model, view),
+        });
         let light = draw.light.filter(|_| lamps.is_none());
         let light = light.map(|light| light.in_model(model));
         let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
         let has_one = is_plain || !is_lit && draw.mesh.colours.is_empty();
-        let generated = match (draw.texgen, &draw.texture) {
-            (Some(rule), Some(skin)) => {
-                Some(rule.generated(&model.then(view), skin.texture, draw.mesh.normals))
-            }
-            _ => None,
-        };
-        let mut pass = Pass {
-            view: View::new(camera, self.screen, &draw.model),
-            light,
-            lamps: lamps.as_ref(),
-            normals: word_of.map(|word| Normals {
-                turn: draw.model.then(&camera.view),
-                word,
-            }),
-            tint,
-            one: has_one.then(|| tint.lit(1 << 15).word()),
-            cull: draw.cull,
-            texels: draw.texture.map(|skin| skin.places),
-            generated: generated.as_ref(),
-            alphas: if state.takes_alphas() {
-                draw.alphas
-            } else {
-                &[]
-            },
-            base: self.vertices.len(),
-            shared: 0,
-            within: false,
-            culled: 0,
-            clipped: 0,
-            lost: Lost::default(),
-        };
+        let generated = draw.texgen.zip(draw.texture);
+        let generated = generated.map(|(TexGen(rule), skin)| Generated {
+            by: rule(&model.then(view), skin.texture),
+            normals: draw.mesh.normals,
+        });
+        let seen = View::new(camera, self.screen, model);
+        let mut pass = Pass::new(seen, tint, has_one, self.vertices.len());
+        pass.light = light;
+        pass.lamps = lamps.as_ref();
+        pass.normals = word_of.map(|word| Normals {
+            turn: model.then(view),
+            word,
+        });
+        pass.cull = draw.cull;
+        pass.texels = draw.texture.map(|skin| skin.places);
+        pass.generated = generated.as_ref();
+        if state.takes_alphas() {
+            pass.alphas = draw.alphas;
+        }
         file(self, &mut pass)?;
         if let (false, Some(kept)) = (pass.alphas.is_empty(), self.draws.last_mut()) {
             kept.alphas = Some(Alphas::new(pass.base, pass.shared));
@@ -242,14 +231,8 @@ impl<'t, L> Scene<'_, 't, L> {
             self.wait(pass);
             return self.transform(mesh.positions, faces.as_flattened(), pass);
         }
-        let range = pass.base..pass.base + pass.shared;
         let (view, positions) = (&pass.view, mesh.positions);
-        let places = self.places.get_mut(range.clone()).unwrap_or_default();
-        let vertices = self
-            .vertices
-            .as_mut_slice()
-            .get_mut(range)
-            .unwrap_or_default();
+        let (vertices, places) = self.shared_and_placed(pass);
         pass.within = match (pass.texels, pass.generated) {
             (None, _) => project_all(view, positions, vertices),
             (_, Some(generated)) => project_generated(generated, view, positions, vertices, places),
@@ -263,11 +246,8 @@ impl<'t, L> Scene<'_, 't, L> {
             return false;
         }
         let records = alpha::records(pass.alphas.len());
-        let Some(records) = self
-            .vertices
-            .append(count + records)
-            .and_then(|v| v.get_mut(count..))
-        else {
+        let room = self.vertices.append(count + records);
+        let Some(records) = room.and_then(|room| room.get_mut(count..)) else {
             return false;
         };
         if !pass.alphas.is_empty() {
@@ -280,9 +260,19 @@ impl<'t, L> Scene<'_, 't, L> {
     /// The vertices of the mesh, if they are in memory.
     #[inline(always)]
     pub(super) fn shared(&mut self, pass: &Pass<'_>) -> &mut [Vertex] {
-        let all = self.vertices.as_mut_slice();
-        let mesh = all.get_mut(pass.base..pass.base + pass.shared);
-        mesh.unwrap_or_default()
+        self.shared_and_placed(pass).0
+    }
+
+    /// The same, and their places on the texture.
+    #[inline(always)]
+    pub(super) fn shared_and_placed(
+        &mut self,
+        pass: &Pass<'_>,
+    ) -> (&mut [Vertex], &mut [TexturePlace]) {
+        let range = pass.base..pass.base + pass.shared;
+        let places = self.places.get_mut(range.clone());
+        let vertices = self.vertices.as_mut_slice().get_mut(range);
+        (vertices.unwrap_or_default(), places.unwrap_or_default())
     }
 
     /// Gives those vertices their colours that triangles have.
@@ -333,6 +323,7 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         // What is before them is skipped, so that a face has its number.
         let faces = faces.get(..range.end).unwrap_or(faces);
+        let is_there = |&i: &u16| usize::from(i) < mesh.positions.len();
         let mut from = range.start;
         while from < faces.len() {
             if pass.shared > 0 {
@@ -340,10 +331,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 from += self.file_run(rest, pass);
             }
             if let Some(&corners) = faces.get(from) {
-                if corners
-                    .iter()
-                    .any(|&i| usize::from(i) >= mesh.positions.len())
-                {
+                if !corners.iter().all(is_there) {
                     return Err(MeshError::Index { face: from as u32 });
                 }
                 self.file_one(mesh, from as u32, corners, pass.one, pass);

@@ -13,7 +13,7 @@ use core::hint::black_box;
 use heapless::Vec;
 
 /// A corner on its way through the planes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Corner {
     pub(super) point: Point,
     pub(super) colour: u32,
@@ -41,11 +41,8 @@ impl Corner {
     /// A vertex of the mesh, of which nothing else is known yet.
     pub(super) fn of_vertex(vertex: u16) -> Self {
         Self {
-            point: Point::default(),
-            colour: 0,
-            texel: [0; 2],
-            alpha: 0,
             vertex,
+            ..Self::default()
         }
     }
 }
@@ -103,18 +100,15 @@ fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32], f: &mut dyn FnMut(
 /// `None` where it does not.
 pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
     let within = points.map(|point| view.within(beyond::NEAR, point));
-    let corner = |i: usize| Corner::cut(points[i], 0);
+    let end = |inner: usize, outer: usize| {
+        let [from, to] = [inner, outer].map(|i| Corner::cut(points[i], 0));
+        Some(between(&from, &to, [within[inner], within[outer]], false).point)
+    };
     let (mut out, mut back) = (None, None);
     for (i, next) in [(0, 1), (1, 2), (2, 0)] {
         match (within[i] >= 0, within[next] >= 0) {
-            (true, false) => {
-                let far = [within[i], within[next]];
-                out = Some(between(&corner(i), &corner(next), far, false).point);
-            }
-            (false, true) => {
-                let far = [within[next], within[i]];
-                back = Some(between(&corner(next), &corner(i), far, false).point);
-            }
+            (true, false) => out = end(i, next),
+            (false, true) => back = end(next, i),
             _ => {}
         }
     }
@@ -127,10 +121,7 @@ fn cut(polygon: &[Corner], view: &View, plane: u32, kept: &mut Polygon) {
     kept.clear();
     for (i, this) in polygon.iter().enumerate() {
         let next = polygon.get(i + 1).or(polygon.first()).unwrap_or(this);
-        let (within, next_within) = (
-            view.within(plane, this.point),
-            view.within(plane, next.point),
-        );
+        let [within, next_within] = [this, next].map(|corner| view.within(plane, corner.point));
         if within >= 0 {
             // A convex polygon crosses a plane twice and loses a corner for the two that it gains.
             let _ = kept.push(*this);
@@ -155,11 +146,8 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
     let whole = ((whole >> down) as u32).max(1);
     let t = divide((near.unsigned_abs() >> down) << 30, whole);
     let (a, b) = (inner.point, outer.point);
-    let point = Point {
-        x: mix(a.x, b.x, t),
-        y: mix(a.y, b.y, t),
-        z: mix(a.z, b.z, t),
-    };
+    let [x, y, z] = [(a.x, b.x), (a.y, b.y), (a.z, b.z)].map(|(a, b)| mix(a, b, t));
+    let point = Point { x, y, z };
     // On the screen the same point is at t zb / z of the projected edge.
     let along = if on_screen && point.z > 0 {
         let part = u64::from(t >> 1) * u64::from(b.z.max(0) as u32);

@@ -39,19 +39,11 @@ impl Lights for Lighting<'_> {
 /// Several lights in the space of a model.
 #[derive(Clone, Copy)]
 pub(super) struct Lamps<'a> {
-    lights: &'a dyn Lights,
-    in_model: LampsInModel,
+    pub(super) lights: &'a dyn Lights,
+    pub(super) in_model: LampsInModel,
 }
 
-impl<'a> Lamps<'a> {
-    /// Taken to the space of a model.
-    pub(super) fn new(lights: &'a dyn Lights, model: &Affine, view: &Affine) -> Self {
-        Self {
-            lights,
-            in_model: lights.to_model(model, view),
-        }
-    }
-
+impl Lamps<'_> {
     /// The colour of a vertex.
     pub(super) fn lit(&self, vertex: LitVertex<'_>) -> Colour {
         self.lights.colour(&self.in_model, vertex)

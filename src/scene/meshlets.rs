@@ -7,15 +7,7 @@ use super::check::check_alphas;
 use super::pass::Pass;
 use super::project::project_listed;
 use super::{Draw, DrawError, Moved, Scene, Shading, TexturePlace, Vertex};
-use crate::geometry::{Camera, Coordinate, Eye, Mesh, MeshError, Meshlet, Meshlets, triangles};
-
-/// What tells which parts are seen.
-struct Seen<'a, 't, C> {
-    camera: Camera,
-    draw: &'a Draw<'a, 't, C>,
-    /// None where faces are seen from behind too, or normals do not tell.
-    eye: Option<Eye>,
-}
+use crate::geometry::{Coordinate, Eye, Mesh, MeshError, Meshlets, triangles};
 
 impl<'t, L> Scene<'_, 't, L> {
     /// [`assemble`](Self::assemble) of a mesh in parts.
@@ -37,50 +29,50 @@ impl<'t, L> Scene<'_, 't, L> {
         if mesh.positions.len() < meshlets.end {
             return Err(DrawError::Mesh(MeshError::Meshlets));
         }
-        let Some(camera) = self.camera else {
-            return Err(DrawError::NotBegun);
-        };
+        let camera = self.camera.ok_or(DrawError::NotBegun)?;
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
         if draw.is_volume() || is_flat || draw.texgen.is_some() {
             return self.assemble(draw, Moved::All, textured, word_of);
         }
         check_alphas(draw.alphas, mesh.positions.len())?;
+        // None where faces are seen from behind too, or normals do not tell.
         let eye = match draw.is_one_sided() {
             true => Eye::new(&draw.model, &camera.view),
             false => None,
         };
-        let seen = Seen { camera, draw, eye };
-        self.assemble_by(
-            draw,
-            textured,
-            word_of,
-            triangles(mesh.faces),
-            |scene, pass| {
-                if !scene.reserve(mesh.positions.len(), pass) {
-                    return scene.file(false, &mesh, pass);
-                }
-                let before = scene.objects.len();
-                let filed = scene.file_meshlets(&seen, meshlets, pass);
-                scene.close(filed, before, &mesh, pass)
-            },
-        )
+        let submitted = triangles(mesh.faces);
+        self.assemble_by(draw, textured, word_of, submitted, |scene, pass| {
+            if !scene.reserve(mesh.positions.len(), pass) {
+                return scene.file(false, &mesh, pass);
+            }
+            let before = scene.objects.len();
+            let filed = scene.file_meshlets(draw, eye, meshlets, pass);
+            scene.close(filed, before, &mesh, pass)
+        })
     }
 
     /// Files the faces of all parts that may be seen.
     fn file_meshlets<C: Coordinate>(
         &mut self,
-        seen: &Seen<'_, 't, C>,
+        draw: &Draw<'_, 't, C>,
+        eye: Option<Eye>,
         meshlets: &Meshlets<'_>,
         pass: &mut Pass<'_>,
     ) -> Result<(), MeshError> {
-        let mesh = &seen.draw.mesh;
+        let (mesh, model) = (&draw.mesh, &draw.model);
         self.wait(pass);
         let (mut from, mut listed) = (0, meshlets.vertices());
         for part in meshlets.parts() {
             let end = from + usize::from(part.faces);
             let (list, rest) = listed.split_at(usize::from(part.vertices).min(listed.len()));
             listed = rest;
-            if self.is_unseen(seen, part, pass.within) {
+            let is_turned_away = eye.is_some_and(|eye| eye.is_behind(part));
+            let (sphere, screen, lines) = (&part.sphere, self.screen, &self.lines);
+            let is_outside = |camera| sphere.is_outside(camera, screen, lines, model);
+            // While all was within the planes, the rest is not held against the picture.
+            let is_unseen =
+                is_turned_away || !pass.within && self.camera.as_ref().is_some_and(is_outside);
+            if is_unseen {
                 self.assembled.triangles_skipped += u32::from(part.faces);
                 pass.culled += u32::from(part.faces);
             } else {
@@ -107,10 +99,7 @@ impl<'t, L> Scene<'_, 't, L> {
         pass: &mut Pass<'_>,
     ) {
         let view = &pass.view;
-        let kept = pass.base..pass.base + pass.shared;
-        let places = self.places.get_mut(kept.clone()).unwrap_or_default();
-        let vertices = self.vertices.as_mut_slice().get_mut(kept);
-        let vertices = vertices.unwrap_or_default();
+        let (vertices, places) = self.shared_and_placed(pass);
         pass.within &= match pass.texels {
             None => project_listed(view, list, positions, vertices, |_, _| {}),
             Some(texels) => project_listed(view, list, positions, vertices, |i, fine| {
@@ -119,22 +108,5 @@ impl<'t, L> Scene<'_, 't, L> {
                 }
             }),
         };
-    }
-
-    /// Whether nothing of a part can be seen. While all was within the planes, the rest is not held against the picture.
-    fn is_unseen<C: Coordinate>(
-        &self,
-        seen: &Seen<'_, 't, C>,
-        part: &Meshlet,
-        all_within: bool,
-    ) -> bool {
-        if seen.eye.is_some_and(|eye| eye.is_behind(part)) {
-            return true;
-        }
-        let model = &seen.draw.model;
-        !all_within
-            && part
-                .sphere
-                .is_outside(&seen.camera, self.screen, &self.lines, model)
     }
 }

@@ -152,12 +152,6 @@ impl Assembled {
     }
 }
 
-/// As many objects as links can lead to.
-fn first_of(objects: &mut [Object]) -> &mut [Object] {
-    let most = objects.len().min(usize::from(Link::CACHED));
-    objects.get_mut(..most).unwrap_or_default()
-}
-
 /// What a renderer's cache has to agree with: where triangles lie, and how often they have changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Content {
@@ -210,12 +204,14 @@ fn next_change() -> u32 {
 impl<'m, 't, L> Scene<'m, 't, L> {
     /// [`new`](Scene::new), for pixels of these steps.
     pub(crate) fn with_scale(screen: Screen, memory: Memory<'m, 't>, scale: Scale) -> Self {
+        // As many as links can lead to.
+        let most = memory.objects.len().min(usize::from(Link::CACHED));
         Self {
             screen,
             camera: None,
             vertices: Arena::new(memory.vertices),
             places: memory.places,
-            objects: Arena::new(first_of(memory.objects)),
+            objects: Arena::new(memory.objects.get_mut(..most).unwrap_or_default()),
             bins: memory.bins,
             draws: Arena::new(memory.draws),
             lines: 0..0,
@@ -254,16 +250,12 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         if width > LARGEST || height > LARGEST {
             return Err(BeginError::Size { width, height });
         }
-        if lines.is_empty() || lines.end > height {
-            return Err(BeginError::Lines {
-                start: lines.start,
-                end: lines.end,
-                height,
-            });
+        let Range { start, end } = lines;
+        if start >= end || end > height {
+            return Err(BeginError::Lines { start, end, height });
         }
-        let (needed, have) = (lines.len(), self.bins.len());
-        if have < needed {
-            let needed = needed as u16;
+        let (needed, have) = (end - start, self.bins.len());
+        if have < usize::from(needed) {
             return Err(BeginError::Bins { needed, have });
         }
         // Behind the last line too: who looks ahead finds nothing there.
@@ -272,7 +264,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.objects.clear();
         self.draws.clear();
         self.camera = Some(*camera);
-        self.lines = lines;
+        self.lines = start..end;
         self.has_values = false;
         self.is_ruled = false;
         self.is_ranked = false;
@@ -335,12 +327,9 @@ impl<'m, 't, L> Scene<'m, 't, L> {
     #[inline(never)]
     fn count_untextured(&mut self, first: usize) {
         let places = &*self.places;
-        let texel = |i: u16| {
-            places
-                .get(usize::from(i))
-                .map_or([0; 2], |place| place.texel())
-        };
-        let stretches = |object: &&Object| Stretch::of(&object.corner.map(texel)).is_none();
+        let place = |i: u16| places.get(usize::from(i)).copied().unwrap_or_default();
+        let stretches =
+            |object: &&Object| Stretch::of(&object.corner.map(|i| place(i).texel())).is_none();
         let objects = self.objects.as_slice().get(first..).unwrap_or_default();
         self.assembled.untextured += objects.iter().filter(stretches).count() as u32;
     }

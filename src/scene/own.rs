@@ -5,7 +5,7 @@ use super::assemble::bin_of;
 use super::cut::{Corner, cut_all};
 use super::pass::{Own, Pass, colour_of};
 use super::project::View;
-use super::{Full, NONE, Object, Scene, TexturePlace, Vertex};
+use super::{Full, Object, Scene, TexturePlace, Vertex};
 use crate::geometry::{Coordinate, Mesh, Scale};
 use core::hint::black_box;
 
@@ -40,23 +40,19 @@ impl<L> Scene<'_, '_, L> {
             dress(mesh, colour, pass, &self.scale, corner);
         }
         let before = self.objects.len();
-        let mut lost = None;
+        let mut filed = Ok(());
         if any == 0 {
-            lost = self.file_piece(&corners, &corners, pass).err();
+            filed = self.file_piece(&corners, &corners, pass);
         } else {
             pass.clipped += 1;
             let pass = &*pass;
             let mut finer = corners;
             make_finer(mesh, black_box(finer.as_mut_slice()), &pass.view);
             cut_all(&finer, &pass.view, any, &mut |piece| {
-                lost = lost.or(self.file_piece(piece, &corners, pass).err());
+                filed = filed.and(self.file_piece(piece, &corners, pass));
             });
         }
-        if let Some(memory) = lost {
-            pass.lost.lose(memory, face);
-        } else if self.objects.len() == before {
-            pass.culled += 1;
-        }
+        pass.count_face(face, filed, self.objects.len() == before);
     }
 
     /// Counts a face whose vertices are known to lie beyond one plane, all of them; whether they are.
@@ -95,15 +91,14 @@ impl<L> Scene<'_, '_, L> {
         let Some((order, places)) = pass.order(places) else {
             return Ok(());
         };
-        let Some(bin) = bin_of(places, &self.picture()) else {
+        let bin = bin_of(places, &self.picture());
+        let Some(head) = bin.and_then(|bin| self.bins.get_mut(bin)) else {
             return Ok(());
         };
         let own = order.map(|i| &own[usize::from(i) % 3]);
         let base = self.vertices.len();
         let record = usize::from(!pass.alphas.is_empty());
-        let Some(vertices) = self.vertices.append(3 + record) else {
-            return Err(Full::Vertices);
-        };
+        let vertices = self.vertices.append(3 + record).ok_or(Full::Vertices)?;
         if let Some(record) = vertices.get_mut(3) {
             *record = alpha::own_record(own.map(|own| own.alpha));
         }
@@ -119,15 +114,13 @@ impl<L> Scene<'_, '_, L> {
                 *place = own.place;
             }
         }
-        let next = self.bins.get(bin).copied().unwrap_or(NONE);
         let corner = [0, 1, 2].map(|i| base as u16 + i);
+        let next = *head;
         let Some(number) = self.objects.push(Object { corner, next }) else {
             self.vertices.truncate(base);
             return Err(Full::Objects);
         };
-        if let Some(head) = self.bins.get_mut(bin) {
-            *head = number;
-        }
+        *head = number;
         Ok(())
     }
 }
@@ -173,11 +166,7 @@ fn own_of(corner: &Corner, whole: &[Corner], vertices: &[Vertex], pass: &Pass<'_
         (on.place, on.depth) = (known.place, known.depth);
     }
     Own {
-        vertex: Vertex {
-            place: on.place,
-            depth: on.depth,
-            colour: corner.colour,
-        },
+        vertex: Vertex::new(on.place, on.depth, corner.colour),
         place: TexturePlace::new(corner.texel, on.fine),
         alpha: corner.alpha,
     }

@@ -164,16 +164,16 @@ pub(super) fn colour_of<C: Coordinate>(
 }
 
 impl Pass<'_> {
-    /// One for faces of one colour with vertices of their own, from behind dropped.
-    pub(super) fn dark(view: View, scale: &Scale, base: usize) -> Self {
-        let tint = Tint::new([0; 3], scale);
+    /// One for faces with vertices of their own, from behind dropped, of a colour, which they have all where `has_one`.
+    #[inline(always)]
+    pub(super) fn new(view: View, tint: Tint, has_one: bool, base: usize) -> Self {
         Self {
             view,
             light: None,
             lamps: None,
             normals: None,
             tint,
-            one: Some(tint.lit(1 << 15).word()),
+            one: has_one.then(|| tint.lit(1 << 15).word()),
             cull: Cull::Back,
             texels: None,
             generated: None,
@@ -187,14 +187,20 @@ impl Pass<'_> {
         }
     }
 
+    /// Counts a face that lost a piece, or of which nothing was filed.
+    #[inline(never)]
+    pub(super) fn count_face(&mut self, face: u32, filed: Result<(), Full>, is_gone: bool) {
+        match filed {
+            Err(memory) => self.lost.lose(memory, face),
+            Ok(()) => self.culled += u32::from(is_gone),
+        }
+    }
+
     /// The texture place of a vertex, texels with 14 fraction bits.
     pub(super) fn texel(&self, i: usize) -> [i32; 2] {
-        let texel = match self.generated {
-            Some(generated) => generated.texel(i),
-            None => self
-                .texels
-                .and_then(|texels| texels.get(i).copied())
-                .unwrap_or_default(),
+        let texel = match (self.generated, self.texels.unwrap_or_default().get(i)) {
+            (Some(generated), _) => generated.texel(i),
+            (None, texel) => texel.copied().unwrap_or_default(),
         };
         texel.map(|t| t << TexturePlace::FINER)
     }

@@ -6,10 +6,8 @@
 use super::check::check_alphas;
 use super::pass::{Own, Pass, colour_of};
 use super::project::{OnScreen, Point};
-use super::{
-    Draw, DrawError, ORIGIN, Scene, Shading, Shadow, Skin, TexturePlace, Vertex, WordOfNormal,
-};
-use crate::geometry::{Coordinate, Cull, Faces, Mesh, Tint};
+use super::{Draw, DrawError, ORIGIN, Scene, Shading, Skin, TexturePlace, Vertex, WordOfNormal};
+use crate::geometry::{Colour, Coordinate, Cull, Faces, Mesh};
 use crate::num::mul_high_unsigned;
 
 /// How far places may lie from the picture's middle, in 13.3: what the guard band has.
@@ -46,12 +44,12 @@ const EMPTY: Mesh<'static, i16> = Mesh {
     faces: Faces::Triangles(&[]),
 };
 
-/// Refuses what would bound a shadow volume.
-fn bounds_nothing(shadow: Option<Shadow>) -> Result<(), DrawError> {
-    match shadow {
-        Some(Shadow::Volume(_)) => Err(DrawError::ShadowFlat),
-        _ => Ok(()),
+/// Refuses what would bound a shadow volume, and alphas that are not as many as vertices.
+fn check_flat<C>(draw: &Draw<'_, '_, C>, vertices: usize) -> Result<(), DrawError> {
+    if draw.is_volume() {
+        return Err(DrawError::ShadowFlat);
     }
+    check_alphas(draw.alphas, vertices)
 }
 
 impl<'t, L> Scene<'_, 't, L> {
@@ -66,8 +64,7 @@ impl<'t, L> Scene<'_, 't, L> {
         faces: &[[ScreenCorner; 3]],
         textured: bool,
     ) -> Result<(), DrawError> {
-        bounds_nothing(draw.shadow)?;
-        check_alphas(draw.alphas, 3 * faces.len())?;
+        check_flat(draw, 3 * faces.len())?;
         let is_flat = draw.shading == Shading::Flat;
         let draw = Draw {
             mesh: EMPTY,
@@ -83,7 +80,8 @@ impl<'t, L> Scene<'_, 't, L> {
         let (scale, is_plain) = (self.scale, self.is_plain(&draw));
         let middle = [self.screen.width(), self.screen.height()].map(|s| 4 * i32::from(s));
         self.assemble_by(&draw, textured, None, faces.len() as u32, |scene, pass| {
-            let near = pass.view.near_depth();
+            let (x, y, z) = (0, 0, pass.view.near);
+            let near = pass.view.project_finer(Point { x, y, z }, 0).depth;
             let plain = pass.one.filter(|_| is_plain);
             for (number, corners) in (0..).zip(faces) {
                 let mut number_of_corner = 3 * number as usize..;
@@ -97,19 +95,15 @@ impl<'t, L> Scene<'_, 't, L> {
                     // 1/w of a list is 2^31 at the near plane.
                     let depth = mul_high_unsigned(vertex.depth, near) << 1;
                     let texel = texel.map(|t| t << TexturePlace::FINER);
+                    let own = || Colour::from_rgb8(from.colour, &scale).word();
+                    let colour = plain.unwrap_or_else(own);
                     Own {
-                        vertex: Vertex {
-                            place: y << 16 | x,
-                            depth: depth.clamp(1, (1 << 31) - 1),
-                            colour: plain.unwrap_or_else(|| {
-                                Tint::new(from.colour, &scale).lit(1 << 15).word()
-                            }),
-                        },
+                        vertex: Vertex::new(y << 16 | x, depth.clamp(1, (1 << 31) - 1), colour),
                         place: TexturePlace::new(texel, [0; 2]),
                         alpha: pass.alpha(number_of_corner.next().unwrap_or_default()),
                     }
                 });
-                scene.file_on_screen(number, own, pass);
+                scene.file_whole(number, &own, pass);
             }
             Ok(())
         })
@@ -126,8 +120,7 @@ impl<'t, L> Scene<'_, 't, L> {
         textured: bool,
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
-        bounds_nothing(draw.shadow)?;
-        check_alphas(draw.alphas, draw.mesh.positions.len())?;
+        check_flat(draw, draw.mesh.positions.len())?;
         let mesh = Mesh {
             faces: Faces::Triangles(&[]),
             ..draw.mesh
@@ -152,22 +145,16 @@ impl<'t, L> Scene<'_, 't, L> {
                     continue;
                 }
                 let on = pass.view.project(point);
-                let colour = match pass.one {
-                    Some(colour) => colour,
-                    None => colour_of(&mesh, i, pass, &scale),
-                };
+                let lit = || colour_of(&mesh, i, pass, &scale);
+                let colour = pass.one.unwrap_or_else(lit);
                 let texel = TexturePlace::new(pass.texel(i), [0; 2]);
                 for face in faces {
                     let own = face.map(|corner| Own {
-                        vertex: Vertex {
-                            place: corner_of(&on, size, corner),
-                            depth: on.depth,
-                            colour,
-                        },
+                        vertex: Vertex::new(corner_of(&on, size, corner), on.depth, colour),
                         place: texel,
                         alpha: pass.alpha(i),
                     });
-                    scene.file_on_screen(i as u32, own, pass);
+                    scene.file_whole(i as u32, &own, pass);
                 }
             }
             Ok(())
@@ -175,12 +162,10 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Files a triangle of a face, and counts it.
-    fn file_on_screen(&mut self, face: u32, own: [Own; 3], pass: &mut Pass<'_>) {
+    fn file_whole(&mut self, face: u32, own: &[Own; 3], pass: &mut Pass<'_>) {
         let before = self.objects.len();
-        match self.file_own(&own, pass) {
-            Err(memory) => pass.lost.lose(memory, face),
-            Ok(()) => pass.culled += u32::from(self.objects.len() == before),
-        }
+        let filed = self.file_own(own, pass);
+        pass.count_face(face, filed, self.objects.len() == before);
     }
 }
 
@@ -201,11 +186,3 @@ fn corner_of(on: &OnScreen, size: u8, corner: usize) -> u32 {
 
 /// Places that points of the largest size may have: 32 bits of both, neither below 0.
 const RIM: [i32; 2] = [0, 0xFFF8];
-
-impl super::project::View {
-    /// The depth of the near plane.
-    fn near_depth(&self) -> u32 {
-        let z = self.near;
-        self.project_finer(Point { x: 0, y: 0, z }, 0).depth
-    }
-}

@@ -13,8 +13,8 @@ use super::pass::{Pass, colour_all};
 use super::project::{OnScreen, Point, View};
 use super::{DepthTest, Draw, DrawError, DrawState, Master, Moved, Scene, Vertex};
 use crate::geometry::{
-    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
-    each_triangle, triangles,
+    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, Tint,
+    check, each_triangle, triangles,
 };
 
 /// What a draw call has to do with the shadows of a light, by the light's number, below [`Shadow::LIGHTS`].
@@ -48,16 +48,12 @@ impl Shadow {
             Self::Volume(light) | Self::Lit(light) | Self::Shadowed(light) => light,
         }
     }
-
-    fn is_volume(self) -> bool {
-        matches!(self, Self::Volume(_))
-    }
 }
 
 impl Master {
     /// What a call with this shadow has to do without: a volume has no colours.
     pub(super) fn with_shadow(self, shadow: Option<Shadow>) -> Self {
-        if !shadow.is_some_and(Shadow::is_volume) {
+        if !matches!(shadow, Some(Shadow::Volume(_))) {
             return self;
         }
         let dark = self.without(Self::SHADING).without(Self::TEXTURE);
@@ -93,9 +89,7 @@ impl<'t, L> Scene<'_, 't, L> {
         light: &ShadowLight,
         mut memory: ShadowMemory<'_>,
     ) -> Result<(), DrawError> {
-        let Some(camera) = self.camera else {
-            return Err(DrawError::NotBegun);
-        };
+        let camera = self.camera.ok_or(DrawError::NotBegun)?;
         check(mesh).map_err(DrawError::Mesh)?;
         let shadow = Some(Shadow::Volume(light.light));
         self.check_shadow(shadow, 0)?;
@@ -173,7 +167,8 @@ impl<'t, L> Scene<'_, 't, L> {
             return Err(self.lose_call(0));
         }
         self.push_back(0)?;
-        let mut pass = Pass::dark(view, &self.scale, self.vertices.len());
+        let dark = Tint::new([0; 3], &self.scale);
+        let mut pass = Pass::new(view, dark, true, self.vertices.len());
         let mut submitted = 0;
         for is_back in [false, true] {
             if is_back {
@@ -211,16 +206,12 @@ impl<'t, L> Scene<'_, 't, L> {
     /// Files a triangle that lies in the near plane, cut to the guard band.
     fn file_cut(&mut self, points: [Point; 3], number: u32, pass: &mut Pass<'_>) {
         let colour = pass.one.unwrap_or_default();
-        let (view, before, mut lost) = (pass.view, self.objects.len(), None);
+        let (view, before, mut filed) = (pass.view, self.objects.len(), Ok(()));
         let corners = points.map(|point| Corner::cut(point, colour));
         cut_all(&corners, &view, 0, &mut |piece| {
-            lost = lost.or(self.file_piece(piece, &[], pass).err());
+            filed = filed.and(self.file_piece(piece, &[], pass));
         });
-        if let Some(memory) = lost {
-            pass.lost.lose(memory, number);
-        } else if self.objects.len() == before {
-            pass.culled += 1;
-        }
+        pass.count_face(number, filed, self.objects.len() == before);
     }
 
     /// Whether a call of this shadow and priority may be drawn beside those that were.

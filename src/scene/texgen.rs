@@ -19,18 +19,6 @@ pub struct TexGen(pub(super) fn(&Affine, &Texture<'_>) -> Generator);
 impl TexGen {
     /// By their normals, which the mesh must have: its texture is a sphere map, whose rim is never passed.
     pub const SPHERE: Self = Self(sphere);
-
-    /// Places of vertices with these normals, by the turn from the model to the camera.
-    #[inline(always)]
-    pub(super) fn generated<'a>(
-        self,
-        turn: &Affine,
-        texture: &Texture<'_>,
-        normals: &'a [[i16; 3]],
-    ) -> Generated<'a> {
-        let by = (self.0)(turn, texture);
-        Generated { by, normals }
-    }
 }
 
 /// A rule that makes places of normals.
