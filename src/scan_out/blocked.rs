@@ -138,13 +138,8 @@ impl<W: Copy + 'static> LineWriter for BlockFrame<'_, W> {
     type Word = W;
 
     fn open(&mut self, window: Window) -> Result<(), FrameBufferError> {
-        let fits =
-            |start: u16, len: u16, end: u16| start.checked_add(len).is_some_and(|last| last <= end);
-        let across = fits(window.x, window.width, self.width);
-        match across && fits(window.y, window.height, self.height) {
-            true => Ok(()),
-            false => Err(FrameBufferError::Window),
-        }
+        let is_inside = window.is_within(self.width, self.height);
+        is_inside.then_some(()).ok_or(FrameBufferError::Window)
     }
 
     /// Block by block: in each all lines of it that came.

@@ -83,6 +83,12 @@ impl Window {
         let ends = [(self.x, self.width), (self.y, self.height)];
         ends.iter().all(|&(at, len)| at.checked_add(len).is_some())
     }
+
+    /// Whether it lies within so many columns and lines.
+    pub(super) fn is_within(self, columns: u16, lines: u16) -> bool {
+        let fits = |at: u16, len, end| at.checked_add(len).is_some_and(|last| last <= end);
+        fits(self.x, self.width, columns) && fits(self.y, self.height, lines)
+    }
 }
 
 /// A buffer of one or more lines that can be moved into a sink and back.

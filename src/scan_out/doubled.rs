@@ -12,8 +12,8 @@
 //! Between two drawn lines lie two that are sent, which need both; so the lines that are sent come one pair behind.
 //! How pixels are mixed is the room's of pixels: here it is a function.
 
-use super::dma::{LineBuf, ScanoutDma, Window};
-use super::pump::{Pump, ScanError};
+use super::dma::{ScanoutDma, Window};
+use super::pump::{Pump, ScanError, WordOf};
 
 /// Draws a window and sends it with twice its lines and columns, at twice its place, so many sent lines a
 /// transfer.
@@ -76,9 +76,6 @@ where
     send(pump, &mix, above, above)?;
     Ok(pump.finish()?)
 }
-
-/// One pixel of the buffers that the sink `D` takes.
-type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
 
 /// Twice a window, if there is a display for it.
 fn doubled(window: Window) -> Option<Window> {

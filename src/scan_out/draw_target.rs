@@ -114,11 +114,8 @@ where
 
     fn open(&mut self, window: Window) -> Result<(), Self::Error> {
         let area = rectangle(window);
-        if self.target.bounding_box().intersection(&area) == area {
-            Ok(())
-        } else {
-            Err(DrawTargetError::Window)
-        }
+        let is_inside = self.target.bounding_box().intersection(&area) == area;
+        is_inside.then_some(()).ok_or(DrawTargetError::Window)
     }
 
     fn write(&mut self, lines: Window, words: &[W]) -> Result<(), Self::Error> {

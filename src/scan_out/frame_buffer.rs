@@ -169,13 +169,6 @@ impl<'f, W: Copy + 'static> FrameBuffer<'f, W> {
             (second, first)
         }
     }
-
-    /// Whether the rectangle is on the display.
-    fn has(&self, window: Window) -> bool {
-        let fits =
-            |start: u16, len: u16, end: u16| start.checked_add(len).is_some_and(|last| last <= end);
-        fits(window.x, window.width, self.width) && fits(window.y, window.height, self.height)
-    }
 }
 
 impl<W: Copy + 'static> LineWriter for FrameBuffer<'_, W> {
@@ -184,15 +177,12 @@ impl<W: Copy + 'static> LineWriter for FrameBuffer<'_, W> {
 
     /// Waits for the vertical blank that the last rectangle asked for: until then its frame is not free.
     fn open(&mut self, window: Window) -> Result<(), FrameBufferError> {
-        let words = usize::from(self.width) * usize::from(self.height);
+        let needed = usize::from(self.width) * usize::from(self.height);
         let have = self.frames[0].len().min(self.frames[1].len());
-        if have < words {
-            return Err(FrameBufferError::Words {
-                needed: words,
-                have,
-            });
+        if have < needed {
+            return Err(FrameBufferError::Words { needed, have });
         }
-        if !self.has(window) {
+        if !window.is_within(self.width, self.height) {
             return Err(FrameBufferError::Window);
         }
         let mut polls = 0_u32;
@@ -205,7 +195,7 @@ impl<W: Copy + 'static> LineWriter for FrameBuffer<'_, W> {
         }
         if window.width < self.width || window.height < self.height {
             let (front, back) = self.front_and_back();
-            for (back, front) in back.iter_mut().zip(front).take(words) {
+            for (back, front) in back.iter_mut().zip(front).take(needed) {
                 *back = *front;
             }
         }

@@ -14,6 +14,7 @@ use ::mipidsi::models::Model;
 use embedded_graphics_core::geometry::OriginDimensions;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiDevice;
+use heapless::Vec;
 
 use super::dma::Window;
 use super::spi::{PanelError, Wire};
@@ -76,17 +77,12 @@ impl<SPI: SpiDevice, DC: OutputPin> Interface for &MipidsiWire<SPI, DC> {
         pixels: impl IntoIterator<Item = [u8; N]>,
     ) -> Result<(), Self::Error> {
         let mut bytes = pixels.into_iter().flatten();
-        let mut chunk = [0; CHUNK];
         loop {
-            let mut len = 0;
-            for (place, byte) in chunk.iter_mut().zip(bytes.by_ref()) {
-                *place = byte;
-                len += 1;
+            let chunk: Vec<u8, CHUNK> = bytes.by_ref().take(CHUNK).collect();
+            if chunk.is_empty() {
+                return Ok(());
             }
-            match chunk.get(..len) {
-                Some(full) if len > 0 => self.0.borrow_mut().data(full)?,
-                _ => return Ok(()),
-            }
+            self.0.borrow_mut().data(&chunk)?;
         }
     }
 

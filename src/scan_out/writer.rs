@@ -135,7 +135,11 @@ impl<T: LineWriter, B: LineBuf<Word = T::Word>> Blocking<T, B> {
         self.writer
             .write(lines, words)
             .map_err(BlockingError::Writer)?;
-        self.left = Some(below(left, lines.height));
+        self.left = Some(Window {
+            y: left.y.saturating_add(lines.height),
+            height: left.height.saturating_sub(lines.height),
+            ..left
+        });
         Ok(())
     }
 }
@@ -143,21 +147,10 @@ impl<T: LineWriter, B: LineBuf<Word = T::Word>> Blocking<T, B> {
 /// The top lines of `left` that `words` words are; `None` when they are not whole, none or too many.
 fn whole_lines(words: usize, left: Window) -> Option<Window> {
     let width = usize::from(left.width);
-    let height = words.checked_div(width)?;
-    if height == 0 || height * width != words {
-        return None;
-    }
+    let is_whole = |height: &usize| *height > 0 && height * width == words;
+    let height = words.checked_div(width).filter(is_whole)?;
     let height = u16::try_from(height).ok().filter(|&n| n <= left.height)?;
     Some(Window { height, ..left })
-}
-
-/// `window` without its top `lines`, of which it has as many.
-fn below(window: Window, lines: u16) -> Window {
-    Window {
-        y: window.y.saturating_add(lines),
-        height: window.height.saturating_sub(lines),
-        ..window
-    }
 }
 
 impl<T: LineWriter, B: LineBuf<Word = T::Word>> ScanoutDma for Blocking<T, B> {
@@ -194,10 +187,6 @@ impl<T: LineWriter, B: LineBuf<Word = T::Word>> ScanoutDma for Blocking<T, B> {
         };
         let whole = left.height == 0;
         self.writer.close(whole).map_err(BlockingError::Writer)?;
-        if whole {
-            Ok(())
-        } else {
-            Err(BlockingError::Sequence)
-        }
+        whole.then_some(()).ok_or(BlockingError::Sequence)
     }
 }

@@ -26,7 +26,7 @@ pub use runs::RunFrame;
 const PUMP_BUFFERS: usize = 2;
 
 /// One pixel of the buffers that the sink `D` takes.
-type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
+pub(super) type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
 
 /// Owns a sink and its two line buffers, and swaps them.
 ///

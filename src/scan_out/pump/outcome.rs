@@ -74,12 +74,10 @@ impl<E: Error> Display for ScanError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Sink { line, error } => write!(f, "scan-out at line {line}: {}", error.kind()),
-            Self::BufferTooShort { needed, have } => {
-                write!(
-                    f,
-                    "a line buffer holds {have} words, one transfer takes {needed}"
-                )
-            }
+            Self::BufferTooShort { needed, have } => write!(
+                f,
+                "a line buffer holds {have} words, one transfer takes {needed}"
+            ),
             Self::Misaligned { cell, corner } => write!(
                 f,
                 "the window begins at {corner:?}, cells are {cell:?} pixels"
