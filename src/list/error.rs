@@ -14,6 +14,17 @@ pub struct ListError {
     pub reason: Reason,
 }
 
+impl ListError {
+    /// At a word of the list.
+    pub(crate) const fn at(word: u32, block: Option<Id>, reason: Reason) -> Self {
+        Self {
+            offset: word.wrapping_mul(4),
+            block,
+            reason,
+        }
+    }
+}
+
 /// What is wrong with a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -244,11 +244,7 @@ impl Walker {
     /// An error of the block that was read last, at which the list stops.
     pub fn fail(&mut self, block: Id, reason: Reason) -> ListError {
         self.running = false;
-        ListError {
-            offset: self.offset(),
-            block: Some(block),
-            reason,
-        }
+        ListError::at(self.block, Some(block), reason)
     }
 
     /// Whether `to` is within the list, its end included.
@@ -278,8 +274,7 @@ impl Walker {
     ) -> Result<Step, ListError> {
         if self.single == 2 {
             self.single = 0;
-            self.running = false;
-            return Ok(Step::Halt(Halt::Stepped));
+            return Ok(self.halt(Halt::Stepped));
         }
         if !self.running {
             return Ok(Step::Halt(Halt::Stopped));
@@ -311,21 +306,16 @@ impl Walker {
         };
         let run = parsed.instruction.run();
         let cost = run.map_or(0, |run| u32::from(run.header.count));
-        if cost > budget.vertices {
-            return Ok(Step::Halt(Halt::Budget));
-        }
-        let jumps = matches!(
+        let jumps = u32::from(matches!(
             parsed.instruction,
             Instruction::Flow(Flow::Jump(_) | Flow::JumpRelative(_))
-        );
-        if jumps {
-            if budget.jumps == 0 {
-                return Ok(Step::Halt(Halt::Budget));
-            }
-            budget.jumps -= 1;
+        ));
+        if cost > budget.vertices || jumps > budget.jumps {
+            return Ok(Step::Halt(Halt::Budget));
         }
         budget.instructions -= 1;
         budget.vertices -= cost;
+        budget.jumps -= jumps;
         self.block = self.at;
         self.met = None;
         let step = self.take(words, parsed);
@@ -347,19 +337,16 @@ impl Walker {
 
     /// What a halt is to those who wait for events, if it is one to them.
     pub fn event_of<'w>(&mut self, halt: Halt, words: impl Words<'w>) -> Option<Event> {
+        let end = Some(words.end());
+        // A wait at the same end of a ring is an event once.
+        let is_new = halt == Halt::Waiting && core::mem::replace(&mut self.met, end) != end;
         match halt {
             Halt::End => Some(Event::ListEnd),
-            Halt::Waiting if self.meets_anew(words) => Some(Event::ListEnd),
+            Halt::Waiting if is_new => Some(Event::ListEnd),
             Halt::Paused => Some(Event::Paused),
             Halt::Sync => Some(Event::Sync),
             _ => None,
         }
-    }
-
-    /// Whether the wait at this end of a ring is new, so that it is an event once.
-    fn meets_anew<'w>(&mut self, words: impl Words<'w>) -> bool {
-        let end = Some(words.end());
-        core::mem::replace(&mut self.met, end) != end
     }
 
     /// A block that was read: checks it against what came before, and walks on.
@@ -414,17 +401,17 @@ impl Walker {
         Ok(())
     }
 
+    /// Stops, and says so.
+    fn halt(&mut self, halt: Halt) -> Step {
+        self.running = false;
+        Step::Halt(halt)
+    }
+
     fn flow<'w>(&mut self, words: impl Words<'w>, flow: Flow, next: u32) -> Step {
         self.at = next;
         let to = match flow {
-            Flow::End => {
-                self.running = false;
-                return Step::Halt(Halt::End);
-            }
-            Flow::Pause => {
-                self.running = false;
-                return Step::Halt(Halt::Paused);
-            }
+            Flow::End => return self.halt(Halt::End),
+            Flow::Pause => return self.halt(Halt::Paused),
             Flow::Sync => return Step::Halt(Halt::Sync),
             Flow::Interrupt(vector) => return Step::Interrupt(vector),
             Flow::LoadTexture { at, .. } => {

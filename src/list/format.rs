@@ -147,11 +147,7 @@ impl Field {
             Field::TEXTURE => form == U16x2,
             _ => true,
         };
-        if good {
-            Ok(Self { parameter, form })
-        } else {
-            Err(bad)
-        }
+        good.then_some(Self { parameter, form }).ok_or(bad)
     }
 
     /// Whether a block with this header has the parameter.

@@ -32,11 +32,7 @@ pub fn read_block<'w>(
     format: &VertexFormat,
 ) -> Result<Parsed, ListError> {
     let have = words.end().wrapping_sub(at);
-    let fail = |block, reason| ListError {
-        offset: at.wrapping_mul(4),
-        block,
-        reason,
-    };
+    let fail = |block, reason| ListError::at(at, block, reason);
     if have == 0 {
         return Err(fail(None, Reason::Truncated { need: 1, have }));
     }
@@ -93,10 +89,13 @@ impl<'w, W: Words<'w>> Block<W> {
 
     /// Refuses the word `n`, unless it is as it may be.
     fn require(&self, n: u32, is_good: bool) -> Result<(), Reason> {
-        match is_good {
-            true => Ok(()),
-            false => Err(self.bad(n)),
-        }
+        is_good.then_some(()).ok_or_else(|| self.bad(n))
+    }
+
+    /// Refuses the count, unless it is as it may be.
+    fn require_count(&self, is_good: bool) -> Result<(), Reason> {
+        let bad = Reason::Count(self.header.count);
+        is_good.then_some(()).ok_or(bad)
     }
 
     /// Whether `data` words behind the header are there; the block's length.
@@ -133,23 +132,19 @@ impl<'w, W: Words<'w>> Block<W> {
 
     fn vertices(&self, format: &VertexFormat) -> Result<Parsed, Reason> {
         let Header { count, rm, id, .. } = self.header;
-        let uneven = match (id, rm) {
-            (Id::Quads, false) => count % 4 != 0,
-            (Id::Quads, true) => count % 2 != 0,
-            _ => false,
+        let group = match id {
+            Id::Quads if rm => 2,
+            Id::Quads => 4,
+            _ => 1,
         };
-        if uneven {
-            return Err(Reason::Count(count));
-        }
+        self.require_count(count % group == 0)?;
         self.run(format.words(self.header) * u32::from(count))
     }
 
     fn indexed(&self) -> Result<Parsed, Reason> {
         let header = self.header;
         let separate = header.low & Header::SEPARATE != 0;
-        if separate && header.count % 3 != 0 {
-            return Err(Reason::Count(header.count));
-        }
+        self.require_count(!separate || header.count.is_multiple_of(3))?;
         if separate && (header.rm || !header.new) {
             return Err(Reason::Reserved(header.to_word()));
         }
@@ -180,9 +175,7 @@ impl<'w, W: Words<'w>> Block<W> {
             6 => (Flow::LoadTexture { number, at }, 1),
             kind => return Err(Reason::Kind(kind)),
         };
-        if !matches!(what, 3 | 6) && argument != 0 {
-            return Err(Reason::Count(self.header.count));
-        }
+        self.require_count(argument == 0 || matches!(what, 3 | 6))?;
         Ok(Parsed {
             instruction: Instruction::Flow(flow),
             words: self.length(data)?,
@@ -191,14 +184,11 @@ impl<'w, W: Words<'w>> Block<W> {
 
     fn state(&self) -> Result<Parsed, Reason> {
         let (what, number) = (self.header.what(), self.header.argument());
-        let is_argument = match what {
+        self.require_count(match what {
             1 | 3 | 4 | 8 | 9 => true,
             12 => number != 0,
             _ => number == 0,
-        };
-        if !is_argument {
-            return Err(Reason::Count(self.header.count));
-        }
+        })?;
         let least = STATE_WORDS.get(usize::from(what));
         let least = u32::from(*least.ok_or(Reason::Kind(what))?);
         self.length(least)?;

@@ -149,12 +149,9 @@ pub struct Pair {
 impl Pair {
     /// Width and height of a level of detail, 0 for the largest.
     #[must_use]
-    pub const fn sides(&self, level: u8) -> [u32; 2] {
-        let [width, height] = self.log_sides;
-        [
-            1 << (width & 15).saturating_sub(level),
-            1 << (height & 15).saturating_sub(level),
-        ]
+    pub fn sides(&self, level: u8) -> [u32; 2] {
+        self.log_sides
+            .map(|side| 1 << (side & 15).saturating_sub(level))
     }
 
     /// Words of the texels of all levels above one of them.

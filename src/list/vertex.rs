@@ -305,13 +305,9 @@ fn bytes<T>(
     of: impl Fn([i32; 3]) -> T,
 ) {
     let mut four = || four_of([next(), next(), next()]);
-    let mut whole = out.chunks_exact_mut(4);
-    for part in &mut whole {
+    for part in out.chunks_mut(4) {
         for (slot, word) in part.iter_mut().zip(four()) {
             *slot = of(fields(form, [word, 0, 0]));
         }
-    }
-    for (slot, word) in whole.into_remainder().iter_mut().zip(four()) {
-        *slot = of(fields(form, [word, 0, 0]));
     }
 }

@@ -60,11 +60,7 @@ impl<'w> Words<'w> for &'w [u32] {
 /// # Errors
 /// [`Reason::Alignment`]; a copy into a `[u32]` mends it.
 pub fn words_of(bytes: &[u8]) -> Result<&[u32], ListError> {
-    bytemuck::try_cast_slice(bytes).map_err(|_| ListError {
-        offset: 0,
-        block: None,
-        reason: Reason::Alignment,
-    })
+    bytemuck::try_cast_slice(bytes).map_err(|_| ListError::at(0, None, Reason::Alignment))
 }
 
 /// The bytes of a file, at a multiple of 4, in flash: for [`words_of`](crate::list::words_of).
