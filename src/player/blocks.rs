@@ -131,7 +131,10 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             return Ok(());
         };
         if let Some(Some(texture)) = self.settings.textures.get(usize::from(number)) {
-            self.state.texture = Some(Listed::own(texture));
+            self.state.texture = Some(Listed {
+                texture,
+                is_translucent: texture.mask().is_some(),
+            });
             return Ok(());
         }
         let pair = self.names.pair(number)?;
@@ -163,10 +166,8 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     /// Gives a texture its number.
     fn define(&mut self, texture: &Texture) -> Result<(), Reason> {
         self.state.is_stale = true;
-        match !L::TEXTURED || self.names.texture(texture) {
-            true => Ok(()),
-            false => Err(Reason::Lent(Lent::Names)),
-        }
+        let is_kept = !L::TEXTURED || self.names.texture(texture);
+        is_kept.then_some(()).ok_or(Reason::Lent(Lent::Names))
     }
 
     /// Passes over what a sphere holds that cannot be seen.
@@ -203,10 +204,8 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
 
     /// Goes on behind so many words. Of a ring, what is not yet there cannot be passed over.
     fn pass_over(&mut self, words: impl Words<'t>, count: u32) {
-        if self
-            .walker
-            .jump(words, self.walker.position().wrapping_add(count))
-        {
+        let to = self.walker.position().wrapping_add(count);
+        if self.walker.jump(words, to) {
             let counts = &mut self.counts;
             counts.skipped = counts.skipped.saturating_add(1);
             counts.skipped_words = counts.skipped_words.saturating_add(count);
@@ -282,7 +281,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {
         // What lights of the settings fall on is for those to say, and so is light at pixels.
-        let is_theirs = self.state.has_lights() || self.state.draw.lamps.is_some();
+        let is_theirs = self.state.lights.is_some() || self.state.draw.lamps.is_some();
         if material.specular != [0; 3] && (is_theirs || self.lights.is_none()) {
             return Err(Reason::Missing(Missing::Highlights));
         }

@@ -39,7 +39,7 @@ pub(crate) struct Unpacked<'m, C> {
 enum Column {
     None,
     InPlace(Slot),
-    Unpacked,
+    Unpacked(Slot),
 }
 
 /// The table in force.
@@ -94,8 +94,6 @@ struct Attributes {
     places: bool,
     /// They are to be exact.
     prsp: bool,
-    /// There were places, and no memory for them.
-    lacks_places: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,7 +201,7 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
             (has.normals, m.normals.len()),
             (has.colours, m.colours.len()),
             (has.alphas, m.alphas.len()),
-            (has.places, m.places.len()),
+            (has.places && !m.places.is_empty(), m.places.len()),
         ] {
             room = if is { room.min(len) } else { room };
         }
@@ -365,7 +363,7 @@ where
 {
     match column {
         Column::None => &[],
-        Column::Unpacked => unpacked.unwrap_or(&[]),
+        Column::Unpacked(_) => unpacked.unwrap_or(&[]),
         Column::InPlace(slot) => slot.in_place(words, table.at, table.count).unwrap_or(&[]),
     }
 }

@@ -12,18 +12,13 @@ const AT_ONCE: usize = 16;
 /// A strip or fan of long vertices, as far as it has come.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LongStrip {
-    strip: Strip,
+    pub(super) strip: Strip,
     /// Its last three vertices, and room for the next.
     vertices: [ScreenCorner; 4],
     alphas: [u8; 4],
 }
 
 impl LongStrip {
-    /// Another one begins.
-    pub(super) fn restart(&mut self) {
-        self.strip.restart();
-    }
-
     /// Takes the vertices of a block; each of them has this colour, unless it has one of its own. Places on a texture with
     /// sides of these logarithms are made texels of. Triangles go to `draw`, some at a time, with the alphas of their
     /// corners.

@@ -219,7 +219,12 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             names: TextureSlots(memory.names),
             overlays: OverlaySlots(memory.overlays),
             is_shown: false,
-            shelf: Shelf::new(memory.textures, memory.texels, memory.levels),
+            shelf: Shelf {
+                free: memory.textures,
+                last: None,
+                words: memory.texels,
+                levels: memory.levels,
+            },
             state: State::new(&settings),
             lights: memory.lights,
             casts: None,
@@ -290,7 +295,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.names.clear();
         self.overlays.clear();
         self.is_shown = false;
-        self.long.restart();
+        self.long.strip.restart();
         lights::begin(self.lights.as_deref_mut(), self.settings.draw.light);
     }
 
@@ -457,11 +462,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     #[cold]
     fn unfit(&mut self, reason: Reason) -> ListError {
         self.walker.stop();
-        ListError {
-            offset: 4u32.wrapping_mul(self.walker.position()),
-            block: None,
-            reason,
-        }
+        ListError::at(self.walker.position(), None, reason)
     }
 
     #[cold]

@@ -9,9 +9,10 @@ use crate::look::Look;
 
 /// Memory for a volume at a time.
 pub(super) struct Casts<'m, 't, L, C> {
-    memory: ShadowMemory<'m>,
-    /// By a pointer that only [`new`](Casts::new) makes: what no program makes, no program has.
-    cast: Cast<'t, L, C>,
+    pub(super) memory: ShadowMemory<'m>,
+    /// Draws the shadow volumes of a mesh. By a pointer that only [`new`](Casts::new) makes: what no program makes, no
+    /// program has.
+    pub(super) cast: Cast<'t, L, C>,
 }
 
 type Cast<'t, L, C> = fn(&mut Drawer<'_, '_, '_, 't, L>, &Gathered<'_, C>, &mut ShadowMemory<'_>);
@@ -19,15 +20,6 @@ type Cast<'t, L, C> = fn(&mut Drawer<'_, '_, '_, 't, L>, &Gathered<'_, C>, &mut 
 impl<'m, 't, L: Look, C: Coordinate + Place> Casts<'m, 't, L, C> {
     pub(super) fn new(memory: ShadowMemory<'m>) -> Self {
         Self { memory, cast }
-    }
-
-    /// Draws the shadow volumes of a mesh.
-    pub(super) fn of(
-        &mut self,
-        drawer: &mut Drawer<'_, '_, '_, 't, L>,
-        gathered: &Gathered<'_, C>,
-    ) {
-        (self.cast)(drawer, gathered, &mut self.memory);
     }
 }
 

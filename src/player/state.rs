@@ -23,7 +23,8 @@ pub(super) struct State<'m, 't> {
     pub(super) matrix: Option<Affine>,
     /// What falls on what is lit.
     pub(super) light: Option<Light>,
-    lights: Option<&'m dyn Lights>,
+    /// Several lights of the settings.
+    pub(super) lights: Option<&'m dyn Lights>,
     /// The blend of what is opaque.
     blend: Option<Blend>,
     pub(super) material: Material,
@@ -89,11 +90,6 @@ impl<'m, 't> State<'m, 't> {
             opacity => Some(Blend::filter(opacity)),
         };
         self.shine();
-    }
-
-    /// Whether several lights of the settings fall on what is drawn.
-    pub(super) fn has_lights(&self) -> bool {
-        self.lights.is_some()
     }
 
     fn shine(&mut self) {
@@ -232,7 +228,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         self.count(vertices, before, done, gathered.block);
         let is_solid = blend.is_none() && !self.state.material.unlit && gathered.points.is_none();
         if let Some(casts) = casts.filter(|_| is_solid) {
-            casts.of(self, gathered);
+            (casts.cast)(self, gathered, &mut casts.memory);
         }
     }
 

@@ -65,23 +65,13 @@ pub(super) struct Listed<'t> {
     pub(super) is_translucent: bool,
 }
 
-impl<'t> Listed<'t> {
-    /// One of the application's.
-    pub(super) fn own(texture: &'t Texture<'t>) -> Self {
-        Self {
-            texture,
-            is_translucent: texture.mask().is_some(),
-        }
-    }
-}
-
 /// The textures that were made, and memory for more.
 #[derive(Debug)]
 pub(super) struct Shelf<'t> {
-    free: &'t mut [TextureRoom<'t>],
-    last: Option<&'t TextureRoom<'t>>,
-    words: &'t mut [u16],
-    levels: &'t mut [Texture<'t>],
+    pub(super) free: &'t mut [TextureRoom<'t>],
+    pub(super) last: Option<&'t TextureRoom<'t>>,
+    pub(super) words: &'t mut [u16],
+    pub(super) levels: &'t mut [Texture<'t>],
 }
 
 /// Where texels and colours lie.
@@ -121,19 +111,6 @@ struct Colour {
 }
 
 impl<'t> Shelf<'t> {
-    pub(super) fn new(
-        rooms: &'t mut [TextureRoom<'t>],
-        words: &'t mut [u16],
-        levels: &'t mut [Texture<'t>],
-    ) -> Self {
-        Self {
-            free: rooms,
-            last: None,
-            words,
-            levels,
-        }
-    }
-
     /// The texture of a pair, whose draw calls are dithered or not.
     ///
     /// # Errors
@@ -182,12 +159,8 @@ impl<'t> Shelf<'t> {
             (self.words.len(), words, Lent::Texels),
             (self.levels.len(), source.coarser(), Lent::Levels),
         ];
-        for (have, need, lent) in needs {
-            if have < textures * need {
-                return Err(Reason::Lent(lent));
-            }
-        }
-        Ok(())
+        let lacks = needs.iter().find(|(have, need, _)| *have < textures * need);
+        lacks.map_or(Ok(()), |(_, _, lent)| Err(Reason::Lent(*lent)))
     }
 
     /// Keeps a texture in a room.
@@ -267,11 +240,9 @@ impl<'t> Shelf<'t> {
             *slot = level(number)?;
         }
         let default = (coarser > 0).then_some(Sampling::NEAREST);
-        Ok(match sampling.or(default) {
-            // Each level has half the sides of the one above it.
-            Some(sampling) => made.sampled(sampling, taken).unwrap_or(made),
-            None => made,
-        })
+        // Each level has half the sides of the one above it.
+        let sampled = |sampling| made.sampled(sampling, taken).unwrap_or(made);
+        Ok(sampling.or(default).map_or(made, sampled))
     }
 
     /// The palette of one whose texels name colours. What the list's does not have is black.
@@ -336,10 +307,8 @@ impl<'t> Shelf<'t> {
             *slot = (panel.word)([r, g, b]);
         }
         let is_hole = |n: u32| of(n).rgba[3] == 0;
-        let key = match has_holes && !is_translucent {
-            true => unused(words, is_hole),
-            false => None,
-        };
+        let has_key = has_holes && !is_translucent;
+        let key = has_key.then(|| unused(words, is_hole)).flatten();
         is_translucent |= has_holes && key.is_none();
         if let Some(key) = key {
             for (n, slot) in (0..).zip(words.iter_mut()) {

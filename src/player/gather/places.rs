@@ -48,18 +48,14 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             return Ok(None);
         };
         match self.kind {
-            Kind::Nothing => Ok(None),
-            Kind::Run { has, .. } if has.lacks_places => Err(LACKING),
-            Kind::Run { has, .. } => {
+            Kind::Run { has, .. } if has.places => {
                 let places = self.memory.places.get_mut(run.clone());
-                let Some(places) = places.filter(|_| has.places) else {
-                    return Ok(None);
-                };
-                for place in places {
+                for place in places.ok_or(LACKING)? {
                     *place = texels(*place, sides);
                 }
                 Ok(Some(run))
             }
+            Kind::Nothing | Kind::Run { .. } => Ok(None),
             Kind::Table => self.place_table(words, sides),
         }
     }

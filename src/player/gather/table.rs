@@ -27,9 +27,9 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         let mut table = Table {
             at,
             count,
-            place: Column::Unpacked,
-            normal: layout.normal.map_or(Column::None, |_| Column::Unpacked),
-            colour: layout.colour.map_or(Column::None, |_| Column::Unpacked),
+            place: Column::Unpacked(layout.place),
+            normal: layout.normal.map_or(Column::None, Column::Unpacked),
+            colour: layout.colour.map_or(Column::None, Column::Unpacked),
             texture: layout.texture,
             alphas: false,
             prsp: run.header.prsp,
@@ -54,7 +54,7 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         let alpha = layout.colour.filter(|slot| slot.has_alpha());
         let alpha = alpha.filter(|_| !m.alphas.is_empty());
         table.alphas = alpha.is_some();
-        let short = |c: Column, len: usize| c == Column::Unpacked && len < n;
+        let short = |c: Column, len: usize| matches!(c, Column::Unpacked(_)) && len < n;
         if short(table.place, m.positions.len())
             || short(table.normal, m.normals.len())
             || short(table.colour, m.colours.len())
@@ -64,21 +64,16 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             self.table = Some(table);
             return Err(Reason::Lent(Lent::Vertices));
         }
-        let fine = C::of(place.form, [0; 3]).is_none();
-        if let (Column::Unpacked, Some(out)) = (table.place, m.positions.get_mut(..n)) {
+        if let (Column::Unpacked(place), Some(out)) = (table.place, m.positions.get_mut(..n)) {
             self.base = n;
             // One that is too fine is not used.
             place.column(words, at, out, |form, f| C::of(form, f).unwrap_or_default());
         }
-        if let (Column::Unpacked, Some(slot), Some(out)) =
-            (table.normal, layout.normal, m.normals.get_mut(..n))
-        {
+        if let (Column::Unpacked(slot), Some(out)) = (table.normal, m.normals.get_mut(..n)) {
             self.base = n;
             slot.column(words, at, out, FieldForm::normal);
         }
-        if let (Column::Unpacked, Some(slot), Some(out)) =
-            (table.colour, layout.colour, m.colours.get_mut(..n))
-        {
+        if let (Column::Unpacked(slot), Some(out)) = (table.colour, m.colours.get_mut(..n)) {
             self.base = n;
             slot.column(words, at, out, |_, f| colour(f));
         }
@@ -97,13 +92,10 @@ impl<C: Coordinate + Place> Gather<'_, C> {
                 table.placed = Some(super::places::RAW);
             }
         }
-        table.usable = !fine;
+        table.usable = C::of(place.form, [0; 3]).is_some();
         self.table = Some(table);
-        if fine {
-            Err(Reason::Missing(Missing::FinePlaces))
-        } else {
-            Ok(())
-        }
+        let fine = Reason::Missing(Missing::FinePlaces);
+        table.usable.then_some(()).ok_or(fine)
     }
 
     /// Whether the table in force has texture places, for which there is no memory.
@@ -132,8 +124,8 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         if self.kind != Kind::Table {
             self.flush(words, out);
             self.kind = Kind::Table;
-            self.strip.restart();
         }
+        // What goes on stands behind others of the table, or the walker refuses it.
         if run.header.new {
             self.strip.restart();
         }
@@ -213,14 +205,8 @@ fn unpack<'w>(words: impl Words<'w>, run: Run, from: u16, some: &mut [u16]) {
         }
         return;
     }
-    let mut fours = some.chunks_exact_mut(4);
-    for four in &mut fours {
-        let bytes = next().to_le_bytes().map(u16::from);
-        four.copy_from_slice(&bytes);
-    }
-    let rest = fours.into_remainder();
-    if !rest.is_empty() {
-        for (slot, byte) in rest.iter_mut().zip(next().to_le_bytes()) {
+    for four in some.chunks_mut(4) {
+        for (slot, byte) in four.iter_mut().zip(next().to_le_bytes()) {
             *slot = byte.into();
         }
     }

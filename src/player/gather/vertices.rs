@@ -28,7 +28,6 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             return Err(Reason::Missing(Missing::FinePlaces));
         }
         let texture = layout.texture.filter(|_| out.textured);
-        let keeps_places = !self.memory.places.is_empty();
         let keeps_alphas = !self.memory.alphas.is_empty();
         let alpha = layout
             .colour
@@ -37,9 +36,8 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             normals: layout.normal.is_some(),
             colours: layout.colour.is_some(),
             alphas: alpha.is_some(),
-            places: texture.is_some() && keeps_places,
+            places: texture.is_some(),
             prsp: texture.is_some() && header.prsp,
-            lacks_places: texture.is_some() && !keeps_places,
         };
         let room = self.room(has).saturating_sub(self.base);
         if room < 4 {
