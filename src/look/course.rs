@@ -18,9 +18,7 @@ impl Course {
     /// So many pixels on.
     #[inline(always)]
     pub(super) fn skip(&mut self, pixels: u32) {
-        for (value, step) in self.value.iter_mut().zip(self.step) {
-            *value = value.wrapping_add((step as u32).wrapping_mul(pixels));
-        }
+        ramp::go_on(&mut self.value, self.step.map(|step| step as u32), pixels);
     }
 
     /// Whether the colour does not step.
@@ -29,36 +27,26 @@ impl Course {
         self.step[0] | self.step[1] | self.step[2] == 0
     }
 
-    /// The pixel of a colour that does not step.
-    #[inline(always)]
-    pub(super) fn even<F: PixelFormat>(&self) -> F::Word {
-        let at = self.pair();
-        F::pack_words(at.red_blue, at.green)
-    }
-
     /// The colour in two words.
     #[inline(always)]
     pub(super) fn pair(&self) -> Pair {
         let [red, green, blue] = self.value;
-        Pair {
-            red_blue: red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF,
-            green: green << 1 & 0xFFFF_0000,
-        }
+        let red_blue = red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF;
+        Pair::new(red_blue, green << 1 & 0xFFFF_0000)
     }
 
     /// The step of `2^log` pixels in two words, rounded.
     #[inline(always)]
-    fn pair_step(&self, log: u32) -> Pair {
-        let rounded = |i: usize| (self.step[i] << log).wrapping_add(1 << 14) >> 15;
-        Pair {
-            red_blue: ((rounded(0) << 16) as u32).wrapping_add(rounded(2) as u32),
-            green: (rounded(1) << 16) as u32,
-        }
+    pub(super) fn pair_step(&self, log: u32) -> Pair {
+        let rounded = |step: i32| (step << log).wrapping_add(1 << 14) >> 15;
+        Pair::of(self.step.map(rounded))
     }
 
-    /// Whether the first of so many pixels and the last keep so much of 2^16 from either end of a channel.
+    /// Whether the first of so many pixels and the last keep so much of 2^16 from either end of a channel, and what steps
+    /// that are rounded take: 8 in 16 pixels.
     #[inline(always)]
-    pub(super) fn keeps(&self, least: [u32; 3], pixels: u32) -> bool {
+    pub(super) fn keeps(&self, room: [i32; 3], pixels: u32) -> bool {
+        let least = room.map(|room| room as u32 + 8);
         let mut last = *self;
         last.skip(pixels.wrapping_sub(1));
         let is_within = |value: u32, least: u32| {
@@ -126,8 +114,7 @@ impl InParts {
     fn next(&mut self, off: u32, fields: [u32; 2]) -> Packed {
         let Self { at, sixteen, step } = *self;
         self.at = at.wrapping_add(sixteen);
-        let (red_blue, green) = (at as u32, (at >> 32) as u32);
-        let word = Pair { red_blue, green }.word(fields);
+        let word = Pair::new(at as u32, (at >> 32) as u32).word(fields);
         let word = word.wrapping_add(step.wrapping_mul(off));
         Packed { word, step }
     }

@@ -17,51 +17,36 @@ pub(super) const fn parts_of(parts: i32, steps: u16) -> i32 {
     (parts * (1 << steps.leading_zeros())) >> 5
 }
 
+/// The same of three channels.
+const fn all_parts_of(parts: i32, [red, green, blue]: [u16; 3]) -> [i32; 3] {
+    let [red, green] = [parts_of(parts, red), parts_of(parts, green)];
+    [red, green, parts_of(parts, blue)]
+}
+
 const fn raised(steps: [u16; 3]) -> Raised {
-    const NONE: Pair = Pair {
-        red_blue: 0,
-        green: 0,
-    };
-    let mut raised = [[NONE; 4]; 4];
+    let mut raised = [[Pair::new(0, 0); 4]; 4];
     let mut i = 0;
     while i < 16 {
         let (line, column) = (i >> 2, i & 3);
         let parts = threshold(column as u32, line as u32);
-        let [red, green, blue] = [
-            parts_of(parts, steps[0]),
-            parts_of(parts, steps[1]),
-            parts_of(parts, steps[2]),
-        ];
-        raised[line][column] = Pair {
-            red_blue: ((red << 16) as u32).wrapping_add(blue as u32),
-            green: (green << 16) as u32,
-        };
+        raised[line][column] = Pair::of(all_parts_of(parts, steps));
         i += 1;
     }
     raised
 }
 
-/// What a format raises by, and what a span has to keep from either end of a channel: a place takes 15/32 of a step, and
-/// steps that are rounded, 8 in 16 pixels.
+/// What a format raises by, and by how much at most.
 struct Table<F>(core::marker::PhantomData<F>);
 
 impl<F: PixelFormat> Table<F> {
     const RAISED: Raised = raised(F::STEPS);
-    const LEAST: [u32; 3] = [
-        Self::least(F::STEPS[0]),
-        Self::least(F::STEPS[1]),
-        Self::least(F::STEPS[2]),
-    ];
-
-    const fn least(steps: u16) -> u32 {
-        parts_of(15, steps) as u32 + 8
-    }
+    const MOST: [i32; 3] = all_parts_of(15, F::STEPS);
 }
 
 /// Colours a run; `course` is at its span's first pixel.
 #[inline(never)]
 pub(super) fn fill<F: PixelFormat>(course: Course, place: Place, run: &mut [F::Word]) {
-    if !course.keeps(Table::<F>::LEAST, place.pixels()) {
+    if !course.keeps(Table::<F>::MOST, place.pixels()) {
         return fill_held::<F>(course, place, run);
     }
     let raised = &const { Table::<F>::RAISED }[place.line as usize & 3];
@@ -71,8 +56,7 @@ pub(super) fn fill<F: PixelFormat>(course: Course, place: Place, run: &mut [F::W
     }
     course.each_part(run, place.skipped(), |part, [mut at, step]| {
         for pixel in part {
-            let by = at.plus(raised[column as usize & 3]);
-            *pixel = F::pack_words(by.red_blue, by.green);
+            *pixel = at.plus(raised[column as usize & 3]).pixel::<F>();
             at = at.plus(step);
             column += 1;
         }
@@ -83,8 +67,8 @@ pub(super) fn fill<F: PixelFormat>(course: Course, place: Place, run: &mut [F::W
 #[inline(never)]
 fn fill_even<F: PixelFormat>(run: &mut [F::Word], at: Pair, raised: &[Pair; 4], column: u32) {
     let four = [0, 1, 2, 3].map(|i| {
-        let by = at.plus(raised[column.wrapping_add(i) as usize & 3]);
-        F::pack_words(by.red_blue, by.green)
+        let by = raised[column.wrapping_add(i) as usize & 3];
+        at.plus(by).pixel::<F>()
     });
     let mut fours = run.chunks_exact_mut(4);
     for pixels in fours.by_ref() {
@@ -168,7 +152,7 @@ mod tests {
             let course = between(ends, pixels);
             (even, held) = (
                 even + usize::from(course.is_even()),
-                held + usize::from(!course.keeps(Table::<Rgb565>::LEAST, pixels)),
+                held + usize::from(!course.keeps(Table::<Rgb565>::MOST, pixels)),
             );
             let at = |column: u32| place(start, start + pixels, column, line);
             let mut whole = [0u16; 70];

@@ -13,6 +13,7 @@
 use super::course::{Course, InParts};
 use super::dither;
 use super::fields::{fields, is_even, is_flat, packed_step, wide_fields};
+use super::mapping::range;
 use super::ramp::{self, Packed, Pair};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
@@ -56,21 +57,10 @@ fn keep_wide(of: [[u32; 3]; 3], planes: &mut Planes) {
 pub(super) fn wide_at(planes: &Planes, place: Place) -> [[u32; 3]; 2] {
     let [red, rx, ry, green, gx, gy, blue, bx] = *planes;
     let by = red << 22 | (green & LENT) << 12 | (blue & LENT) << 2;
-    let at = |value: u32, across: u32, down: u32| {
-        value
-            .wrapping_add(across.wrapping_mul(place.column))
-            .wrapping_add(down.wrapping_mul(place.line))
-    };
-    let value = [at(red, rx, ry), at(green, gx, gy), at(blue, bx, by)];
-    [value, [rx, gx, bx]]
-}
-
-/// `values[0]` and what is to be added for each column and line, at a place.
-#[inline(always)]
-pub(super) fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
-    planes[plane]
-        .wrapping_add(planes[plane + 1].wrapping_mul(place.column))
-        .wrapping_add(planes[plane + 2].wrapping_mul(place.line))
+    let red = place.value([red, rx, ry]);
+    let green = place.value([green, gx, gy]);
+    let blue = place.value([blue, bx, by]);
+    [[red, green, blue], [rx, gx, bx]]
 }
 
 impl<F: PixelFormat> Gouraud<F> {
@@ -124,10 +114,7 @@ impl<F: PixelFormat> Gouraud<F> {
         let step = if F::MADE_OF.is_one_word() { 32 } else { 4 };
         let mut mean = [0; 3];
         for i in 0..3 {
-            let channel = of.map(|f| f[i]);
-            let (low, high) = channel
-                .iter()
-                .fold((i32::MAX, 0), |(l, h), &c| (l.min(c), h.max(c)));
+            let [low, high] = range(of.map(|f| f[i]));
             if high - low > step {
                 return None;
             }
@@ -153,25 +140,18 @@ impl<F: PixelFormat> Gouraud<F> {
     /// A run of what is not in one word.
     #[inline(never)]
     fn fill_other(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        if fill == Fill::Small && F::MADE_OF.is_one_word() {
-            return Self::fill_small(planes, place, run);
+        match (fill, F::MADE_OF.is_one_word()) {
+            (Fill::Small, true) => Self::fill_small(planes, place, run),
+            (Fill::Plain | Fill::Small, false) => Self::fill_words(planes, place, run),
+            // Of what is one word nothing else is left.
+            _ => Self::fill_wide(planes, place, run),
         }
-        // Of what is one word it is all that is left.
-        let fill = if F::MADE_OF.is_one_word() {
-            Fill::Wide
-        } else {
-            fill
-        };
-        if matches!(fill, Fill::Plain | Fill::Small) {
-            return Self::fill_words(planes, place, run);
-        }
-        Self::fill_wide(fill, planes, place, run);
     }
 
     /// A run of [`Fill::Small`], packed anew every 16 pixels from its span's first on.
     #[inline(always)]
     fn fill_small(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let (at, off) = Self::at_anchor(planes, place);
+        let ([at, _], off) = Self::at_anchor(planes, place);
         if run.len() > 16 - off as usize {
             return Self::fill_small_long(planes, place, run);
         }
@@ -183,41 +163,38 @@ impl<F: PixelFormat> Gouraud<F> {
     /// The same of a format of two words, which holds all bits of the planes.
     #[inline(always)]
     fn fill_words(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let [red_blue, green] = [0, 3].map(|i| at(planes, i, place));
-        if planes[1] | planes[4] == 0 {
-            return ramp::fill_even::<F>(run, F::pack_words(red_blue, green));
+        let [at, step] = pair_at(planes, place);
+        if step.is_none() {
+            return ramp::fill_even::<F>(run, at.pixel::<F>());
         }
-        let pair = |[red_blue, green]: [u32; 2]| Pair { red_blue, green };
-        ramp::fill_pair::<F>(run, pair([red_blue, green]), pair([planes[1], planes[4]]));
+        ramp::fill_pair::<F>(run, at, step);
     }
 
     /// The same of more than one part.
     #[inline(never)]
     fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let (at, off) = Self::at_anchor(planes, place);
-        if planes[1] | planes[4] == 0 {
-            return ramp::fill_even::<F>(run, F::pack_words(at.red_blue, at.green));
+        let ([at, step], off) = Self::at_anchor(planes, place);
+        if step.is_none() {
+            return ramp::fill_even::<F>(run, at.pixel::<F>());
         }
-        let [red_blue, green] = [planes[1], planes[4]].map(|step| step << 4);
-        InParts::new(at, Pair { red_blue, green }, planes[6]).fill_long::<F>(run, off);
+        InParts::new(at, step.times(16), planes[6]).fill_long::<F>(run, off);
     }
 
-    /// Both words of [`Fill::Small`] at the last pixel at or before a place that is a multiple of 16 from its span's first
-    /// one, and how many pixels lie between.
+    /// [`pair_at`] the last pixel at or before a place that is a multiple of 16 from its span's first one, and how many
+    /// pixels lie between.
     #[inline(always)]
-    fn at_anchor(planes: &Planes, place: Place) -> (Pair, u32) {
+    fn at_anchor(planes: &Planes, place: Place) -> ([Pair; 2], u32) {
         let off = place.skipped() & 15;
         let column = place.column.wrapping_sub(off);
-        let [red_blue, green] = [0, 3].map(|i| at(planes, i, Place { column, ..place }));
-        (Pair { red_blue, green }, off)
+        (pair_at(planes, Place { column, ..place }), off)
     }
 
     /// A run of what keeps more bits, likewise.
     #[inline(never)]
-    fn fill_wide(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let course = course(fill, planes, place.first());
+    fn fill_wide(planes: &Planes, place: Place, run: &mut [F::Word]) {
+        let course = course(Fill::Wide, planes, place.first());
         if course.is_even() {
-            return ramp::fill_even::<F>(run, course.even::<F>());
+            return ramp::fill_even::<F>(run, course.pair().pixel::<F>());
         }
         let skipped = place.skipped();
         if F::MADE_OF.is_one_word() {
@@ -230,9 +207,10 @@ impl<F: PixelFormat> Gouraud<F> {
 
     #[inline(always)]
     fn packed(planes: &Planes, place: Place) -> Packed {
+        let [at, step, below, ..] = *planes;
         Packed {
-            word: at(planes, 0, place),
-            step: planes[1],
+            word: place.value([at, step, below]),
+            step,
         }
     }
 }
@@ -241,13 +219,11 @@ impl<F: PixelFormat> Gouraud<F> {
 #[inline(always)]
 pub(super) fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
     if fill == Fill::Small {
-        let (red_blue, green) = (at(planes, 0, place), at(planes, 3, place));
-        let blue = i32::from(planes[1] as i16);
-        let red = planes[1].wrapping_sub(blue as u32) as i32 >> 16;
+        let [at, step] = pair_at(planes, place);
         let wide = |sixteen: u32| (sixteen & 0xFFFF) << 15;
         return Course {
-            value: [wide(red_blue >> 16), wide(green >> 16), wide(red_blue)],
-            step: [red << 15, planes[4] as i32 >> 16 << 15, blue << 15],
+            value: [at.red_blue >> 16, at.green >> 16, at.red_blue].map(wide),
+            step: step.parts().map(|part| part << 15),
             packed: planes[6],
         };
     }
@@ -260,47 +236,48 @@ pub(super) fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
     }
 }
 
+/// Red, green and blue of corners with 16 bits each, as planes.
+#[inline(always)]
+pub(super) fn rises(shares: &Shares, colour: [u32; 3]) -> [Rise; 3] {
+    let shares = shares.cut::<6>();
+    let [a, b, c] = colour.map(fields);
+    let mut rises = [
+        shares.rise::<6, 5>(b[0] - a[0], c[0] - a[0]),
+        shares.rise::<6, 5>(b[1] - a[1], c[1] - a[1]),
+        shares.rise::<6, 6>(b[2] - a[2], c[2] - a[2]),
+    ];
+    for (rise, first) in rises.iter_mut().zip([a[0] << 5, a[1] << 5, a[2] << 6]) {
+        rise.at = rise.at.wrapping_add(first);
+    }
+    rises
+}
+
+/// Keeps them in pairs of words.
+#[inline(always)]
+pub(super) fn keep_pairs(rises: [Rise; 3], planes: &mut Planes) {
+    let [red, green, blue] = rises;
+    let at = Pair::of([red.at, green.at, blue.at]);
+    let dx = Pair::of([red.dx, green.dx, blue.dx]);
+    let dy = Pair::of([red.dy, green.dy, blue.dy]);
+    [planes[0], planes[1], planes[2]] = [at.red_blue, dx.red_blue, dy.red_blue];
+    [planes[3], planes[4], planes[5]] = [at.green, dx.green, dy.green];
+}
+
+/// What was kept so, at a place, and its step.
+#[inline(always)]
+pub(super) fn pair_at(planes: &Planes, place: Place) -> [Pair; 2] {
+    let [red_blue, rx, ry, green, gx, gy, ..] = *planes;
+    let red_blue = place.value([red_blue, rx, ry]);
+    let green = place.value([green, gx, gy]);
+    [Pair::new(red_blue, green), Pair::new(rx, gx)]
+}
+
 /// Two words with 16 bits a channel.
 #[inline(never)]
 fn pair_planes(shares: &Shares, colour: [u32; 3], planes: &mut Planes) {
-    let shares = shares.cut::<6>();
-    let [a, b, c] = colour.map(fields);
-    let (e1, e2) = (
-        [0, 1, 2].map(|i| b[i] - a[i]),
-        [0, 1, 2].map(|i| c[i] - a[i]),
-    );
-    let red = shares.rise::<6, 5>(e1[0], e2[0]);
-    let green = shares.rise::<6, 5>(e1[1], e2[1]);
-    let blue = shares.rise::<6, 6>(e1[2], e2[2]);
-    let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
-    planes[0] = join(
-        red.at.wrapping_add(a[0] << 5),
-        blue.at.wrapping_add(a[2] << 6),
-    );
-    planes[1] = join(red.dx, blue.dx);
-    planes[2] = join(red.dy, blue.dy);
-    planes[3] = (green.at.wrapping_add(a[1] << 5) << 16) as u32;
-    planes[4] = (green.dx << 16) as u32;
-    planes[5] = (green.dy << 16) as u32;
-    planes[6] = packed_step([red.dx, green.dx, blue.dx], [5, 5, 6]);
-}
-
-/// A plane a channel; whether the triangle is not too thin for them.
-#[inline(never)]
-fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
-    let Some(area) = &triangle.wide_area() else {
-        return false;
-    };
-    let corners = triangle.vertex.map(|v| wide_fields(v.colour));
-    let mut three = [[0; 3]; 3];
-    for (i, to) in three.iter_mut().enumerate() {
-        let Some(plane) = area.plane(corners.map(|c| c[i] as i32)) else {
-            return false;
-        };
-        *to = plane;
-    }
-    keep_wide(three, planes);
-    true
+    let rises = rises(shares, colour);
+    keep_pairs(rises, planes);
+    planes[6] = packed_step(rises.map(|r| r.dx), [5, 5, 6]);
 }
 
 /// Planes of the two ways that keep 16 bits a channel or more.
@@ -315,14 +292,22 @@ fn plane_shades(triangle: &Triangle<'_>, size: Size, area: u32, planes: &mut Pla
     }
 }
 
-/// Planes of the way that keeps most bits, if the triangle has any.
-#[inline(always)]
+/// Planes of the way that keeps most bits, one a channel, if the triangle is not too thin for them.
+#[inline(never)]
 pub(super) fn wide_shades(triangle: &Triangle<'_>, planes: &mut Planes) -> Fill {
-    if wide_planes(triangle, planes) {
-        Fill::Wide
-    } else {
-        Fill::Thin
+    let Some(area) = &triangle.wide_area() else {
+        return Fill::Thin;
+    };
+    let corners = triangle.vertex.map(|v| wide_fields(v.colour));
+    let mut three = [[0; 3]; 3];
+    for (i, to) in three.iter_mut().enumerate() {
+        let Some(plane) = area.plane(corners.map(|c| c[i] as i32)) else {
+            return Fill::Thin;
+        };
+        *to = plane;
     }
+    keep_wide(three, planes);
+    Fill::Wide
 }
 
 /// Planes of a thin triangle on one line, for [`Fill::Wide`].

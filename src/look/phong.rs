@@ -19,6 +19,7 @@
 use super::dither::parts_of;
 use super::fields::{is_even, wide_fields};
 use super::gouraud::{Gouraud, Planes as Three, even_pair, thin_shades, wide_at, wide_shades};
+use super::ramp::go_on;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::{Affine, PixelLamps, Scale};
 use crate::pixel::{PixelFormat, threshold};
@@ -130,9 +131,7 @@ pub(super) fn light<F: PixelFormat>(
             parts += threshold(column, place.line);
         }
         *pixel = self::pixel::<F>(lit, parts);
-        for (value, step) in value.iter_mut().zip(steps) {
-            *value = value.wrapping_add(step);
-        }
+        go_on(&mut value, steps, 1);
     }
 }
 

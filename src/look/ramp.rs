@@ -15,11 +15,13 @@ pub(super) struct Packed {
     pub(super) step: u32,
 }
 
-/// A colour with 16 bits a channel: red above blue, and green above nothing.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
-    pub(super) red_blue: u32,
-    pub(super) green: u32,
+/// A colour with 16 bits a channel, or its step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Pair {
+    /// Red above blue. Of a step, the sum `(red << 16) + blue` of numbers with signs.
+    pub red_blue: u32,
+    /// Green above 0.
+    pub green: u32,
 }
 
 impl Pair {
@@ -33,26 +35,77 @@ impl Pair {
         self.red_blue & red | (self.red_blue & blue) << 5 | self.green >> 21
     }
 
+    /// The pixel of the colour.
     #[inline(always)]
-    pub(super) fn times(self, steps: u32) -> Self {
-        Self {
-            red_blue: self.red_blue.wrapping_mul(steps),
-            green: self.green.wrapping_mul(steps),
-        }
+    pub(super) fn pixel<F: PixelFormat>(self) -> F::Word {
+        F::pack_words(self.red_blue, self.green)
     }
 
     #[inline(always)]
-    pub(super) fn plus(self, step: Self) -> Self {
-        Self {
-            red_blue: self.red_blue.wrapping_add(step.red_blue),
-            green: self.green.wrapping_add(step.green),
-        }
+    pub(super) const fn new(red_blue: u32, green: u32) -> Self {
+        Self { red_blue, green }
+    }
+
+    /// Of red, green and blue; of a step these have signs.
+    #[inline(always)]
+    pub(super) const fn of([red, green, blue]: [i32; 3]) -> Self {
+        let red_blue = ((red << 16) as u32).wrapping_add(blue as u32);
+        Self::new(red_blue, (green << 16) as u32)
+    }
+
+    /// Red, green and blue of a step.
+    #[inline(always)]
+    pub(super) const fn parts(self) -> [i32; 3] {
+        let blue = self.red_blue as i16 as i32;
+        let red = self.red_blue.wrapping_sub(blue as u32) as i32 >> 16;
+        [red, self.green as i32 >> 16, blue]
+    }
+
+    /// Whether a step is none.
+    #[inline(always)]
+    pub(super) const fn is_none(self) -> bool {
+        self.red_blue | self.green == 0
+    }
+
+    /// The colour that is `step` further on.
+    #[inline(always)]
+    pub(super) const fn plus(self, step: Self) -> Self {
+        let red_blue = self.red_blue.wrapping_add(step.red_blue);
+        let green = self.green.wrapping_add(step.green);
+        Self { red_blue, green }
+    }
+
+    /// The colour that is `step` back.
+    #[inline(always)]
+    pub(super) const fn minus(self, step: Self) -> Self {
+        let red_blue = self.red_blue.wrapping_sub(step.red_blue);
+        let green = self.green.wrapping_sub(step.green);
+        Self { red_blue, green }
+    }
+
+    /// So many times this step.
+    #[inline(always)]
+    pub(super) const fn times(self, pixels: u32) -> Self {
+        let red_blue = self.red_blue.wrapping_mul(pixels);
+        let green = self.green.wrapping_mul(pixels);
+        Self { red_blue, green }
     }
 }
 
-/// A jump into straight code: after `$jump` has left the block of a label, what stands at that label is done and then
-/// all that stands after it.
+/// Adds so many steps to what has three parts.
+#[inline(always)]
+pub(super) fn go_on(value: &mut [u32; 3], step: [u32; 3], steps: u32) {
+    for (value, step) in value.iter_mut().zip(step) {
+        *value = value.wrapping_add(step.wrapping_mul(steps));
+    }
+}
+
+/// A jump into straight code: to the label of a number, where what stands there is done and then all that stands
+/// after it.
 macro_rules! fall {
+    ($put:ident, $to:ident: $([$label:lifetime $k:literal])*) => {
+        fall!($put, { match $to { $($k => break $label,)* _ => return } } $([$label $k])*)
+    };
     ($put:ident, $jump:block) => { $jump };
     ($put:ident, $jump:block [$label:lifetime $k:literal] $($rest:tt)*) => {
         fall!($put, { $label: { $jump } $put($k); } $($rest)*)
@@ -76,28 +129,8 @@ pub(super) fn fill<F: PixelFormat>(run: &mut [F::Word], ramp: Packed) {
         }
         word = word.wrapping_sub(ramp.step);
     };
-    fall!(put, {
-        match last {
-            0 => break 'a,
-            1 => break 'b,
-            2 => break 'c,
-            3 => break 'd,
-            4 => break 'e,
-            5 => break 'f,
-            6 => break 'g,
-            7 => break 'h,
-            8 => break 'i,
-            9 => break 'j,
-            10 => break 'k,
-            11 => break 'l,
-            12 => break 'm,
-            13 => break 'n,
-            14 => break 'o,
-            15 => break 'p,
-            _ => return,
-        }
-    } ['p 15] ['o 14] ['n 13] ['m 12] ['l 11] ['k 10] ['j 9] ['i 8] ['h 7] ['g 6] ['f 5] ['e 4] ['d 3] ['c 2] ['b 1]
-        ['a 0]);
+    fall!(put, last: ['p 15] ['o 14] ['n 13] ['m 12] ['l 11] ['k 10] ['j 9] ['i 8] ['h 7] ['g 6] ['f 5] ['e 4] ['d 3]
+        ['c 2] ['b 1] ['a 0]);
 }
 
 /// Colours 16 pixels, as [`fill`] does, without a jump: code of a loop, but where there are 8 registers.
@@ -149,7 +182,7 @@ fn fill_chunk<F: PixelFormat, const N: usize>(run: &mut [F::Word; N], ramp: &mut
 #[inline(never)]
 pub(super) fn fill_pair<F: PixelFormat>(run: &mut [F::Word], mut at: Pair, step: Pair) {
     for pixel in run {
-        *pixel = F::pack_words(at.red_blue, at.green);
+        *pixel = at.pixel::<F>();
         at = at.plus(step);
     }
 }

@@ -4,6 +4,7 @@
 //! nothing of them but their number: each has a plane with 20 fraction bits, and a pixel its exact value.
 
 use super::gouraud::{Planes, thin_shades, wide_at, wide_shades};
+use super::ramp::go_on;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
@@ -105,9 +106,7 @@ impl<S: Shader> Look for Shaded<S> {
             // Planes have 31 bits.
             let parameters = value.map(|value| ((value >> 15) as u16).saturating_sub(HALF));
             *pixel = S::pixel(parameters, [column, place.line as u16]);
-            for (value, step) in value.iter_mut().zip(steps) {
-                *value = value.wrapping_add(step);
-            }
+            go_on(&mut value, steps, 1);
         }
     }
 }

@@ -1,25 +1,10 @@
 //! The shade of a textured triangle: its planes, and what they are along a span.
 
 use super::course::Course;
-use super::fields::fields;
-use super::gouraud::{Planes as Shades, at, course};
-use super::tint::Shade;
+use super::gouraud::{Planes as Shades, course, keep_pairs, rises};
+use super::ramp::{Pair, go_on};
 use super::{Fill, Place};
-use crate::span::{Rise, Shares};
-
-/// The shade of a triangle within 64 pixels half a pixel beyond a place, and its step.
-#[inline(always)]
-pub(super) fn small_shade(planes: &Shades, place: Place) -> [Shade; 2] {
-    let step = Shade {
-        red_blue: planes[1],
-        green: planes[4],
-    };
-    let at = Shade {
-        red_blue: at(planes, 0, place),
-        green: at(planes, 3, place),
-    };
-    [at, step]
-}
+use crate::span::Shares;
 
 /// The shade along a span from a place's own pixel on.
 #[inline(always)]
@@ -42,44 +27,26 @@ const STEEP: i32 = 1 << 14;
 /// it is not too steep for them.
 #[inline(always)]
 pub(super) fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) -> bool {
-    let shares = shares.cut::<6>();
-    let [a, b, c] = colour.map(fields);
-    let red = shares.rise::<6, 5>(b[0] - a[0], c[0] - a[0]);
-    let green = shares.rise::<6, 5>(b[1] - a[1], c[1] - a[1]);
-    let blue = shares.rise::<6, 6>(b[2] - a[2], c[2] - a[2]);
-    let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
-    let first = |rise: &Rise, value: i32| rise.at.wrapping_add(value).wrapping_add(rise.dx >> 1);
-    planes[0] = join(first(&red, a[0] << 5), first(&blue, a[2] << 6));
-    planes[1] = join(red.dx, blue.dx);
-    planes[2] = join(red.dy, blue.dy);
-    planes[3] = (first(&green, a[1] << 5) << 16) as u32;
-    planes[4] = (green.dx << 16) as u32;
-    planes[5] = (green.dy << 16) as u32;
-    let raised = |rise: &Rise| rise.dx.wrapping_add(STEEP) as u32;
-    raised(&red) | raised(&green) | raised(&blue) < 2 * STEEP as u32
+    let mut rises = rises(shares, colour);
+    for rise in &mut rises {
+        rise.at = rise.at.wrapping_add(rise.dx >> 1);
+    }
+    keep_pairs(rises, planes);
+    let [red, green, blue] = rises.map(|rise| rise.dx.wrapping_add(STEEP) as u32);
+    red | green | blue < 2 * STEEP as u32
 }
 
 /// The shade half a pixel beyond a place, and its step, for a part of a span with so many pixels. A pixel alone in a
 /// steep shade has that of its own place.
 #[inline(always)]
-pub(super) fn shade_at(course: &Course, pixels: u32) -> [Shade; 2] {
-    let is_alone = pixels == 1
-        && course
-            .step
-            .iter()
-            .any(|step| (step ^ step >> 31) >> 15 >= STEEP);
-    let step = if is_alone { [0; 3] } else { course.step };
-    let half = |i: usize| course.value[i].wrapping_add((step[i] >> 1) as u32);
-    let rounded = |i: usize| step[i].wrapping_add(1 << 14) >> 15;
-    let shade = Shade {
-        red_blue: half(0) << 1 & 0xFFFF_0000 | half(2) >> 15 & 0xFFFF,
-        green: half(1) << 1 & 0xFFFF_0000,
-    };
-    let step = Shade {
-        red_blue: ((rounded(0) << 16) as u32).wrapping_add(rounded(2) as u32),
-        green: (rounded(1) << 16) as u32,
-    };
-    [shade, step]
+pub(super) fn shade_at(course: &Course, pixels: u32) -> [Pair; 2] {
+    let mut course = *course;
+    let is_steep = |step: &i32| (step ^ step >> 31) >> 15 >= STEEP;
+    if pixels == 1 && course.step.iter().any(is_steep) {
+        course.step = [0; 3];
+    }
+    go_on(&mut course.value, course.step.map(|s| (s >> 1) as u32), 1);
+    [course.pair(), course.pair_step(0)]
 }
 
 #[cfg(test)]

@@ -14,10 +14,10 @@
 use super::course::Course;
 use super::fetch::{copy_from, copy_part};
 use super::fields::is_even;
-use super::gouraud::{Planes as Shades, course, even_pair, thin_shades, wide_shades};
+use super::gouraud::{Planes as Shades, course, even_pair, pair_at, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values};
 use super::phong::Shine;
-use super::shades::{shade_at, shade_course, shade_planes, small_shade};
+use super::shades::{shade_at, shade_course, shade_planes};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
@@ -71,6 +71,7 @@ impl Planes {
     }
 
     /// What the triangle's draw call says.
+    #[inline(always)]
     pub(super) fn state<'d, 't>(&self, draws: &'d [DrawState<'t>]) -> Option<&'d DrawState<'t>> {
         draws.get(usize::from(self.draw))
     }
@@ -215,20 +216,15 @@ impl<F: Texel> Textured<F> {
         let Some(values) = Values::new(&corners, texture, budget) else {
             return false;
         };
-        planes.mapped = values.planes(
-            &corners,
-            triangle.frame,
-            texture,
-            budget,
-            &mut planes.mapping,
-        );
+        let mapping = &mut planes.mapping;
+        planes.mapped = values.planes(&corners, triangle.frame, texture, budget, mapping);
         !planes.mapped
     }
 
     /// The texels of a run, as they are; white without any.
     #[inline(always)]
     pub(super) fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        let state = draws.get(usize::from(planes.draw));
+        let state = planes.state(draws);
         if let Some(square) = state.and_then(DrawState::square) {
             // Without a mapping none is short enough.
             if planes.mapping.draw_short(run, place, square) {
@@ -263,39 +259,30 @@ impl<F: Texel> Textured<F> {
     #[inline(never)]
     fn fill_shaded(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
         Self::texels(planes, place, draws, run);
-        Self::shade(planes, place, run);
+        Self::shade(planes, place, run, false);
     }
 
     /// Multiplies a run by the shade of a triangle within 64 pixels.
     #[inline(always)]
     fn shade_small(planes: &Shades, place: Place, run: &mut [u16]) {
-        let [at, step] = small_shade(planes, place);
+        let [at, step] = pair_at(planes, place);
         if run.len() as u32 == place.pixels() {
             return F::tint(run, at, step);
         }
         Self::shade_part(run, place, [at, step]);
     }
 
-    /// [`shade`](Textured::shade), dithered.
-    #[inline(never)]
-    fn shade_dithered(planes: &Planes, place: Place, run: &mut [u16]) {
+    /// Multiplies a run by the shade of a triangle, dithered or not.
+    #[inline(always)]
+    fn shade(planes: &Planes, place: Place, run: &mut [u16], dithers: bool) {
         match planes.shaded {
-            Some(Fill::Small) => {
-                let [half, step] = small_shade(&planes.shade, place);
+            Some(Fill::Small) if dithers => {
+                let [half, step] = pair_at(&planes.shade, place);
                 let shade = half.minus_quarter(step.times(2));
                 F::tint_dithered(run, shade, step, [place.column, place.line]);
             }
-            Some(fill) => Self::shade_long(fill, &planes.shade, place, run, true),
-            None => {}
-        }
-    }
-
-    /// Multiplies a run by the shade of a triangle.
-    #[inline(always)]
-    fn shade(planes: &Planes, place: Place, run: &mut [u16]) {
-        match planes.shaded {
             Some(Fill::Small) => Self::shade_small(&planes.shade, place, run),
-            Some(fill) => Self::shade_long(fill, &planes.shade, place, run, false),
+            Some(fill) => Self::shade_long(fill, &planes.shade, place, run, dithers),
             None => {}
         }
     }
@@ -312,7 +299,7 @@ impl<F: Texel> Textured<F> {
             let column = at.column - skipped;
             let course = course(fill, planes, Place { column, ..at });
             let [half, step] = shade_at(&course, SHADE_RUN.min(at.end - column));
-            let way = step.times(skipped as usize);
+            let way = step.times(skipped);
             if dithers {
                 // Each pixel has the shade of its own place.
                 let still = Course {
@@ -347,7 +334,7 @@ impl<F: Texel> Textured<F> {
         let (pairs, one) = rest.split_at_mut(pairs);
         F::tint(pairs, shade, step);
         if !one.is_empty() {
-            let shade = shade.plus(step.times(pairs.len()));
+            let shade = shade.plus(step.times(pairs.len() as u32));
             F::tint(one, shade, Shade::default());
         }
     }
@@ -375,11 +362,10 @@ impl<F: Texel> Look for Textured<F> {
         planes.draw = draws.number_of(object);
         thin_shades(span, &mut planes.shade);
         planes.shaded = Some(Fill::Wide);
-        let state = draws.states.get(usize::from(planes.draw));
-        let Some((texture, budget)) = state.and_then(DrawState::texture) else {
-            return;
-        };
-        let Some(values) = Values::new(&Self::corners(span.triangle), texture, budget) else {
+        let texture = planes.state(draws.states).and_then(DrawState::texture);
+        let Some(values) = texture.and_then(|(texture, budget)| {
+            Values::new(&Self::corners(span.triangle), texture, budget)
+        }) else {
             return;
         };
         planes.mapping.method = values.method;
@@ -394,10 +380,7 @@ impl<F: Texel> Look for Textured<F> {
 
     #[inline(always)]
     fn fill_plain(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        let Some(square) = draws
-            .get(usize::from(planes.draw))
-            .and_then(DrawState::square)
-        else {
+        let Some(square) = planes.state(draws).and_then(DrawState::square) else {
             return;
         };
         let plane = planes.mapping.planes[0];
@@ -446,18 +429,11 @@ impl<F: Texel> Look for Textured<F> {
             Self::fill(fill, planes, place, draws, run);
             return u32::MAX;
         }
-        let shade = |run: &mut [u16]| {
-            if dithers {
-                Self::shade_dithered(planes, place, run);
-            } else {
-                Self::shade(planes, place, run);
-            }
-        };
         Self::texels(planes, place, draws, run);
         if let Some(holes) = holes.filter(|holes| holes.are_filled) {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());
-            shade(&mut colours[..count]);
+            Self::shade(planes, place, &mut colours[..count], dithers);
             for (texel, &colour) in run.iter_mut().zip(&colours) {
                 rolled();
                 if *texel == holes.key {
@@ -467,7 +443,7 @@ impl<F: Texel> Look for Textured<F> {
             return u32::MAX;
         }
         let opaque = holes.map_or(u32::MAX, |holes| holes.opaque(run));
-        shade(run);
+        Self::shade(planes, place, run, dithers);
         opaque
     }
 
@@ -478,9 +454,8 @@ impl<F: Texel> Look for Textured<F> {
             return;
         };
         if let Some(mask) = texture.mask() {
-            planes
-                .mapping
-                .draw_as(run, place, &mask, budget, Words::Masks);
+            let mapping = &planes.mapping;
+            mapping.draw_as(run, place, &mask, budget, Words::Masks);
         }
     }
 }

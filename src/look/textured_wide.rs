@@ -9,6 +9,7 @@
 //! take 4 to 12 % more (scene B, `firmware --bench`).
 
 use super::course::Course;
+use super::ramp::go_on;
 use super::textured::{Planes, Textured};
 use super::tint::{Shade, Texel};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
@@ -73,9 +74,7 @@ fn light<F: PixelFormat>(mut light: Light, step: Light, texels: &[u16], run: &mu
     for (&texel, pixel) in texels.iter().zip(run) {
         *pixel = light.on::<F>(texel, half);
         rolled();
-        for (light, step) in light.0.iter_mut().zip(step.0) {
-            *light = light.wrapping_add(step);
-        }
+        go_on(&mut light.0, step.0, 1);
     }
 }
 
@@ -115,9 +114,7 @@ fn shade_part<F: PixelFormat>(
         };
         let (now, rest) = run.split_at_mut(pixels);
         let [mut first, step] = lights(&course);
-        for (light, step) in first.0.iter_mut().zip(step.0) {
-            *light = light.wrapping_add(step.wrapping_mul(part as u32));
-        }
+        go_on(&mut first.0, step.0, part as u32);
         light::<F>(first, step, texels, now);
         texels = texels.get(pixels..).unwrap_or_default();
         place.column += AT_ONCE as u32;

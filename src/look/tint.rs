@@ -8,7 +8,7 @@
 //! | a pixel of long runs (5 pixels, all in) | Cortex-M4 | Cortex-M0+ | code, M4 |
 //! |---|---|---|---|
 //! | [`tint`] | 10.9 (94) | 26.7 (203) | 742 bytes |
-//! | [`tint_swapped`] | 11.6 (100) | 26.9 (207) | 786 |
+//! | the same, swapped | 11.6 (100) | 26.9 (207) | 786 |
 //!
 //! Long runs of one shade have a loop of their own, 248 bytes: a list of crates, swapped, takes 556,885 instructions
 //! for them on an M4 where the loop with steps takes 713,247.
@@ -22,21 +22,16 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
+use super::ramp::Pair;
 use crate::num::rolled;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Bytes, threshold};
 use core::hint::black_box as unknown;
 
-/// Light of a pixel, or its step, in two words: 16 bits a channel, full light is 2^15.
+/// Light of a pixel, or its step: full light is 2^15.
 ///
 /// Where a channel is below 0 or above full light and 255, pixels get any colour: planes keep a [margin](Shade::MARGIN)
 /// to both ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Shade {
-    /// Red above blue. Of a step, the sum `(red << 16) + blue` of numbers with signs.
-    pub red_blue: u32,
-    /// Green above 0.
-    pub green: u32,
-}
+pub type Shade = Pair;
 
 /// Full light.
 #[cfg(test)]
@@ -82,47 +77,10 @@ impl Shade {
     /// What planes have on top of the light, so that sums which err stay above 0: of 5 bits 1/16 of a step, of 8 bits half.
     pub(super) const MARGIN: u32 = 1 << 6;
 
-    /// The shade that is `by` further on.
-    #[inline(always)]
-    #[must_use]
-    pub const fn plus(self, by: Self) -> Self {
-        Self {
-            red_blue: self.red_blue.wrapping_add(by.red_blue),
-            green: self.green.wrapping_add(by.green),
-        }
-    }
-
-    /// The shade that is `by` back.
-    #[inline(always)]
-    #[must_use]
-    pub const fn minus(self, by: Self) -> Self {
-        Self {
-            red_blue: self.red_blue.wrapping_sub(by.red_blue),
-            green: self.green.wrapping_sub(by.green),
-        }
-    }
-
-    /// `pixels` times this step.
-    #[inline(always)]
-    #[must_use]
-    pub const fn times(self, pixels: usize) -> Self {
-        Self {
-            red_blue: self.red_blue.wrapping_mul(pixels as u32),
-            green: self.green.wrapping_mul(pixels as u32),
-        }
-    }
-
     /// A quarter of `step` back.
     #[inline(always)]
-    pub const fn minus_quarter(self, step: Self) -> Self {
-        let blue = step.red_blue as i16 as i32;
-        let red = step.red_blue.wrapping_sub(blue as u32) as i32 >> 16;
-        let quarter = ((red >> 2 << 16) as u32).wrapping_add((blue >> 2) as u32);
-        let green = (step.green as i32 >> 18 << 16) as u32;
-        Self {
-            red_blue: self.red_blue.wrapping_sub(quarter),
-            green: self.green.wrapping_sub(green),
-        }
+    pub fn minus_quarter(self, step: Self) -> Self {
+        self.minus(Self::of(step.parts().map(|part| part >> 2)))
     }
 
     /// Red, green and blue with 10 bits below full light.
@@ -167,18 +125,12 @@ fn pair<const SWAPPED: bool>(a: &mut u16, b: &mut u16, by: [u32; 3], m: Masks) {
     (*a, *b) = (w as u16, (w >> 16) as u16);
 }
 
-/// Multiplies native 565 pixels by a shade that is `shade` half a pixel beyond the first one's
-/// centre, and gets `step` more each pixel. Of an odd number, the last one is shaded by its own place: half a
-/// pixel beyond may lie beyond its triangle.
+/// Multiplies 565 pixels, whose bytes are `SWAPPED` where a panel on a serial bus wants that, by a shade that is `shade`
+/// half a pixel beyond the first one's centre, and gets `step` more each pixel. Of an odd number, the last one is shaded
+/// by its own place: half a pixel beyond may lie beyond its triangle.
 #[inline(always)]
-pub fn tint(run: &mut [u16], shade: Shade, step: Shade) {
-    gouraud::<false>(run, shade, step.times(2));
-}
-
-/// [`tint`] of pixels whose bytes are swapped, as panels on a serial bus want them.
-#[inline(always)]
-pub fn tint_swapped(run: &mut [u16], shade: Shade, step: Shade) {
-    gouraud::<true>(run, shade, step.times(2));
+pub fn tint<const SWAPPED: bool>(run: &mut [u16], shade: Shade, step: Shade) {
+    gouraud::<SWAPPED>(run, shade, step.times(2));
 }
 
 /// By steps of two pixels.
@@ -291,6 +243,9 @@ fn dithered<const SWAPPED: bool>(
     step: Shade,
     [column, line]: [u32; 2],
 ) {
+    if step.is_none() {
+        return dithered_even::<SWAPPED>(run, shade, [column, line]);
+    }
     for (pixel, column) in run.iter_mut().zip(column..) {
         let m = MASKS.raising(raised::<SWAPPED>([column, line]));
         *pixel = tinted::<SWAPPED>(u32::from(*pixel), held(shade), m) as u16;
@@ -325,9 +280,9 @@ pub trait Texel: PixelFormat<Word = u16> {
     #[inline(always)]
     fn tint(run: &mut [u16], shade: Shade, step: Shade) {
         if Self::ordered(1) == 1 {
-            tint(run, shade, step);
+            tint::<false>(run, shade, step);
         } else {
-            tint_swapped(run, shade, step);
+            tint::<true>(run, shade, step);
         }
     }
 
@@ -335,16 +290,10 @@ pub trait Texel: PixelFormat<Word = u16> {
     /// `shade` is for the first.
     #[inline(never)]
     fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        let swaps = Self::ordered(1) != 1;
-        if step.red_blue | step.green == 0 {
-            return match swaps {
-                false => dithered_even::<false>(run, shade, at),
-                true => dithered_even::<true>(run, shade, at),
-            };
-        }
-        match swaps {
-            false => dithered::<false>(run, shade, step, at),
-            true => dithered::<true>(run, shade, step, at),
+        if Self::ordered(1) == 1 {
+            dithered::<false>(run, shade, step, at);
+        } else {
+            dithered::<true>(run, shade, step, at);
         }
     }
 }
@@ -438,9 +387,9 @@ mod tests {
             let level = f64::from(i) / 200.0;
             let by = [level, 1.0 - level, (2.0 * level).min(1.0)];
             run.copy_from_slice(&texels);
-            tint(&mut run, shade(by), Shade::default());
+            tint::<false>(&mut run, shade(by), Shade::default());
             let mut swapped: Vec<u16> = texels.iter().map(|p| p.swap_bytes()).collect();
-            tint_swapped(&mut swapped, shade(by), Shade::default());
+            tint::<true>(&mut swapped, shade(by), Shade::default());
             assert!(run.iter().zip(&swapped).all(|(p, s)| *p == s.swap_bytes()));
             for (&got, &texel) in run.iter().zip(&texels) {
                 // Half a step, and 1/1024 of the field for the shade.
@@ -482,7 +431,7 @@ mod tests {
                 red_blue: next.red_blue.wrapping_sub(first.red_blue),
                 green: next.green.wrapping_sub(first.green),
             };
-            tint(&mut run, first, step);
+            tint::<false>(&mut run, first, step);
             for (x, (&got, &texel)) in run.iter().zip(&texels).enumerate() {
                 let [r, g, b] = off(got, texel, at(x as f64));
                 assert!(
@@ -491,7 +440,7 @@ mod tests {
                 );
             }
             swapped.iter_mut().for_each(|p| *p = p.swap_bytes());
-            tint_swapped(&mut swapped, first, step);
+            tint::<true>(&mut swapped, first, step);
             swapped.iter_mut().for_each(|p| *p = p.swap_bytes());
             assert_eq!(swapped, run);
         }
