@@ -23,14 +23,6 @@ pub(super) const fn joined_565(fields: u32) -> u16 {
     (fields | fields >> 16) as u16
 }
 
-/// The pixel of fields of 16 times its steps, to the nearest step.
-#[inline(always)]
-pub(super) const fn narrow_565([wide, _]: [u32; 2]) -> u16 {
-    /// Half a step of each field.
-    const HALVES: u32 = 8 << 21 | 8 << 11 | 8;
-    joined_565((wide + HALVES) >> 4 & FIELDS_565)
-}
-
 /// A sent line: its pixels lie a quarter of a drawn one away from the drawn ones' centres, so that
 /// it is 9, 3, 3 and 1 sixteenths of the four around.
 #[inline(always)]

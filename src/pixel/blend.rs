@@ -102,18 +102,12 @@ fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend,
             if blend.channels >> i & 1 == 0 {
                 *n = o;
             } else if mix.is_none() {
-                *n = sum(*n, source.at(o), o, destination.at(o));
+                let sum = u32::from(*n) * source.at(o) + u32::from(o) * destination.at(o);
+                *n = of_255(sum).min(255) as u8;
             }
         }
         *old = F::from_rgb8(n);
     }
-}
-
-/// A level times a factor and another times another, at most full.
-#[inline(always)]
-fn sum(new: u8, source: u32, old: u8, destination: u32) -> u8 {
-    let both = u32::from(new) * source + u32::from(old) * destination;
-    of_255(both).min(255) as u8
 }
 
 /// A factor, which is linear in the level that is there: 255 for 1.

@@ -257,8 +257,10 @@ impl PixelFormat for Rgb565 {
     }
 
     #[inline(always)]
-    fn narrow(fields: [u32; 2]) -> u16 {
-        between::narrow_565(fields)
+    fn narrow([wide, _]: [u32; 2]) -> u16 {
+        /// Half a step of each field.
+        const HALVES: u32 = 8 << 21 | 8 << 11 | 8;
+        between::joined_565((wide + HALVES) >> 4 & between::FIELDS_565)
     }
 }
 
@@ -337,7 +339,7 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
 
     #[inline(always)]
     fn narrow(fields: [u32; 2]) -> u16 {
-        Self::in_memory(between::narrow_565(fields))
+        Self::in_memory(Rgb565::narrow(fields))
     }
 }
 
