@@ -152,8 +152,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if span.start >= span.end {
             return;
         }
-        let meets = self.over.meets(span.start, span.end);
-        let is_compared = self.met && meets;
+        let is_compared = self.met && self.over.meets(span.start, span.end);
         let has_values = Flags::of(slot).has_values();
         let state = has_values.then(|| out.view.state_of(slot)).flatten();
         let state = state.unwrap_or(&DrawState::EMPTY);
@@ -167,7 +166,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             Known::new(slope, self.depth, &mut self.written)
         });
         if let Some(counter) = &self.counter {
-            (counter.span)(&mut self.spans, ruled, known.as_ref(), !meets, out);
+            let is_alone = !self.over.meets(span.start, span.end);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
         }
         if !has_values && !is_compared {
             return colour::<L>(drawn, span, out);
@@ -186,11 +186,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
         let (drawn, span) = (alone.drawn(), stray.span);
         let ruled = Ruled { drawn, span, state };
-        let meets = self.over.meets(span.start, span.end);
-        let known = (self.met && meets)
-            .then(|| Known::new(stray.slope::<L>(out), self.depth, &mut self.written));
+        let is_compared = self.met && self.over.meets(span.start, span.end);
+        let known =
+            is_compared.then(|| Known::new(stray.slope::<L>(out), self.depth, &mut self.written));
         if let Some(counter) = &self.counter {
-            (counter.span)(&mut self.spans, ruled, known.as_ref(), !meets, out);
+            let is_alone = !self.over.meets(span.start, span.end);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
         }
         draw_ruled::<L>(ruled, span, out, known);
     }
