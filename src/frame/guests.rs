@@ -273,9 +273,8 @@ impl<'v> Stray<'v> {
     /// The same where its columns are known.
     #[inline(always)]
     pub(super) fn with(span: Span, object: u16, view: &View<'v>) -> Option<Self> {
-        let triangle = view.triangle_of(object)?;
         Some(Self {
-            triangle,
+            triangle: view.triangle_of(object)?,
             object,
             span,
         })
