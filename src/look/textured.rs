@@ -287,6 +287,12 @@ impl<F: Texel> Textured<F> {
         }
     }
 
+    /// The same, called.
+    #[inline(never)]
+    fn shade_any(planes: &Planes, place: Place, run: &mut [u16], dithers: bool) {
+        Self::shade(planes, place, run, dithers);
+    }
+
     /// Multiplies a run by the shade of a triangle that is not within 64 pixels.
     #[inline(never)]
     fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16], dithers: bool) {
@@ -433,7 +439,7 @@ impl<F: Texel> Look for Textured<F> {
         if let Some(holes) = holes.filter(|holes| holes.are_filled) {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());
-            Self::shade(planes, place, &mut colours[..count], dithers);
+            Self::shade_any(planes, place, &mut colours[..count], dithers);
             for (texel, &colour) in run.iter_mut().zip(&colours) {
                 rolled();
                 if *texel == holes.key {
@@ -443,7 +449,7 @@ impl<F: Texel> Look for Textured<F> {
             return u32::MAX;
         }
         let opaque = holes.map_or(u32::MAX, |holes| holes.opaque(run));
-        Self::shade(planes, place, run, dithers);
+        Self::shade_any(planes, place, run, dithers);
         opaque
     }
 
