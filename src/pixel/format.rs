@@ -153,6 +153,11 @@ impl PixelFormat for Rgb888 {
         steps
     }
 
+    #[inline(always)]
+    fn pack_words(red_blue: u32, green: u32) -> [u8; 3] {
+        [red_blue >> 24, green >> 24, red_blue >> 8].map(|level| level as u8)
+    }
+
     /// Four pixels at a time, which are three words, where there are enough of them.
     #[inline]
     fn fill(pixels: &mut [[u8; 3]], mut word: [u8; 3]) {
