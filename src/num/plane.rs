@@ -192,13 +192,18 @@ mod tests {
         assert!(made > 100_000, "{made} made, {refused} refused");
     }
 
-    /// Kills: a box whose sides are not all looked at.
+    /// Kills: a box whose sides are not all looked at, or that may be twice or half as steep.
     #[test]
     fn steep_planes_are_refused_in_large_boxes_alone() {
-        // A step of 2^29 to the right or down, and the box once wide, once high, once both.
-        let steep = 1 << 26;
+        // A step of 2^29 or of 3/4 of it to the right or down, and the box once wide, once high, once both.
         let planes = |p, value| inverse(p).unwrap().plane(value);
-        for (far, is_made) in [(10_000, false), (4_000, true)] {
+        let (steep, steeper) = (3 << 24, 1 << 26);
+        for (far, steep, is_made) in [
+            (10_000, steeper, false),
+            (10_000, steep, false),
+            (8_000, steep, true),
+            (4_000, steeper, true),
+        ] {
             for (p, value) in [
                 ([[0, 0], [far, 0], [far, 1]], [0, 0, steep]),
                 ([[0, 0], [far, far], [0, 1]], [0, 0, steep]),

@@ -211,4 +211,46 @@ mod tests {
         std::println!("{worst} units");
         assert!(worst < 20.0, "{worst}");
     }
+
+    /// A step of a pixel that 27 bits and a sign do not hold is refused, whether rises are small or not.
+    ///
+    /// Kills: a bound that is half or twice as much, for either.
+    #[test]
+    fn steps_of_more_than_27_bits_are_refused() {
+        let mut rng = Rng(80);
+        let mut counts = [[0; 2]; 2];
+        for i in 0..400_000 {
+            // Any, and those with the least areas.
+            let mut below = |most: u32| rng.below(most) as i32;
+            let ([bx, by], [cx, cy]) = match i % 2 {
+                0 => ([below(224), below(224)], [below(224), below(224)]),
+                _ => {
+                    let wide = 100 + below(124);
+                    ([wide, 1], [wide - 1 - below(3), 1])
+                }
+            };
+            let area = bx * cy - by * cx;
+            if area <= 0 {
+                continue;
+            }
+            let bits = [15, 2][i / 2 % 2];
+            let [e1, e2] = [(); 2].map(|()| rng.below(u32::MAX) as i32 >> bits);
+            let first = ((8 * ORIGIN) << 16 | (8 * ORIGIN)) as u32;
+            let place = [[0, 0], [bx, by], [cx, cy]].map(|[x, y]| first + (y << 16 | x) as u32);
+            let is_made = Shares::new(area as u32, place).steep(e1, e2).is_some();
+            let step = |a: i32, b: i32, c: i32, d: i32| {
+                let [a, b, c, d] = [a, b, c, d].map(i64::from);
+                8.0 * (a * b - c * d).abs() as f64 / f64::from(area)
+            };
+            let most = step(e1, cy, e2, by).max(step(e2, bx, e1, cx)) / f64::from(1 << 27);
+            // The reciprocal of the area has 16 bits.
+            if (most - 1.0).abs() > 0.01 {
+                assert_eq!(is_made, most < 1.0, "{most}: {bx} {by} {cx} {cy} {e1} {e2}");
+                let is_small = e1.unsigned_abs().max(e2.unsigned_abs()) < 1 << 16;
+                counts[usize::from(is_small)][usize::from(is_made)] += 1;
+            }
+        }
+        std::println!("{counts:?}");
+        assert!(counts.as_flattened().iter().all(|&count| count > 1_000));
+    }
 }
