@@ -121,7 +121,7 @@ fn sent(drawn: Drawn) -> impl Iterator<Item = [u8; 3]> {
 
 /// Numbers are what an SPI panel gets, of flat faces that are filled in pairs.
 ///
-/// Kills: the last pixel of a run of numbers that nobody writes.
+/// Kills: numbers whose bytes are swapped as those of a panel are.
 #[test]
 fn numbers_are_what_an_spi_panel_gets() {
     let faces = sent(suite_frame(Suite::NearToFar).unwrap());
