@@ -63,17 +63,21 @@ where
         return Err(ScanError::BufferTooShort { needed, have }.into());
     };
     pump.begin(sent, lines_per_transfer)?;
+    let send = |pump: &mut Pump<D>, near: &[_], far: &[_]| {
+        mix(near, far, pump.line()?);
+        pump.line_done()
+    };
     let mut draw =
         |pump: &mut Pump<D>, line, to: &mut _| draw(line, to).inspect_err(|_| pump.give_up());
     draw(pump, 0, above)?;
-    send(pump, &mix, above, above)?;
+    send(pump, above, above)?;
     for line in 1..window.height {
         draw(pump, line, below)?;
-        send(pump, &mix, above, below)?;
-        send(pump, &mix, below, above)?;
+        send(pump, above, below)?;
+        send(pump, below, above)?;
         core::mem::swap(above, below);
     }
-    send(pump, &mix, above, above)?;
+    send(pump, above, above)?;
     Ok(pump.finish()?)
 }
 
@@ -86,15 +90,4 @@ fn doubled(window: Window) -> Option<Window> {
         width: twice(window.width).filter(|&n| n > 0)?,
         height: twice(window.height).filter(|&n| n > 0)?,
     })
-}
-
-/// Fills the pump's next line.
-fn send<D: ScanoutDma>(
-    pump: &mut Pump<D>,
-    mix: impl Fn(&[WordOf<D>], &[WordOf<D>], &mut [WordOf<D>]),
-    near: &[WordOf<D>],
-    far: &[WordOf<D>],
-) -> Result<(), ScanError<D::Error>> {
-    mix(near, far, pump.line()?);
-    pump.line_done()
 }

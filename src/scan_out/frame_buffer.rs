@@ -152,12 +152,7 @@ impl<'f, W: Copy + 'static> FrameBuffer<'f, W> {
     /// The frame that the display shows.
     #[must_use]
     pub fn shown(&self) -> &[W] {
-        let [first, second] = &self.frames;
-        if self.flag.shown() == 0 {
-            first
-        } else {
-            second
-        }
+        self.frames[self.flag.shown()]
     }
 
     /// The frame that is shown and the one that is filled. Called when no swap is pending.

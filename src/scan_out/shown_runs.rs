@@ -66,10 +66,7 @@ impl<'m> ShownRuns<'m> {
     pub(super) fn forget_unfinished(&mut self) {
         let cells = core::mem::take(&mut self.unfinished) * self.sums.len();
         let reached = cells.min(self.hashes.len());
-        self.hashes
-            .iter_mut()
-            .take(reached)
-            .for_each(|hash| *hash = 0);
+        self.hashes[..reached].fill(0);
         self.sums.fill(0);
     }
 
@@ -94,15 +91,12 @@ impl<'m> ShownRuns<'m> {
         self.unfinished = self.unfinished.max(row + 1);
         let (left, count) = (x / self.columns, width.div_ceil(self.columns));
         let at = row * self.sums.len() + usize::from(left);
-        let shown = self.hashes.iter_mut().skip(at);
-        let mut shown = shown.map(Some).chain(core::iter::repeat_with(|| None));
-        for sum in self.sums.iter_mut().skip(left.into()).take(count.into()) {
+        let sums = self.sums.iter_mut().skip(left.into()).take(count.into());
+        for (sum, cell) in sums.zip(at..) {
             let hash = core::mem::take(sum).max(1);
-            let changed = match shown.next().flatten() {
-                Some(shown) => core::mem::replace(shown, hash) != hash,
-                None => true,
-            };
-            *sum = changed.into();
+            let shown = self.hashes.get_mut(cell);
+            let is_other = shown.is_none_or(|shown| core::mem::replace(shown, hash) != hash);
+            *sum = is_other.into();
         }
     }
 

@@ -19,6 +19,7 @@ use super::dma::{LineBuf, ScanoutDma, Window};
 mod outcome;
 mod runs;
 
+use outcome::sink;
 pub use outcome::{ScanError, ScanStats};
 pub use runs::RunFrame;
 
@@ -132,9 +133,7 @@ impl<D: ScanoutDma> Pump<D> {
         lines_per_transfer: u16,
     ) -> Result<(), ScanError<D::Error>> {
         let band_lines = self.prepare(window, lines_per_transfer)?;
-        self.dma
-            .begin(window)
-            .map_err(|error| ScanError::Sink { line: 0, error })?;
+        self.dma.begin(window).map_err(sink(0))?;
         self.open = true;
         self.window = Some(window);
         self.band_lines = band_lines;
@@ -229,9 +228,8 @@ impl<D: ScanoutDma> Pump<D> {
             return Err(ScanError::OutOfTurn { line: 0 });
         };
         if !self.handed {
-            return Err(ScanError::OutOfTurn {
-                line: self.next_line(),
-            });
+            let line = self.next_line();
+            return Err(ScanError::OutOfTurn { line });
         }
         self.handed = false;
         self.band_filled += 1;
@@ -266,9 +264,7 @@ impl<D: ScanoutDma> Pump<D> {
     /// # Errors
     /// `OutOfTurn` without a frame; `LinesMissing` when not every line was done; else what sending or closing said.
     pub fn finish(&mut self) -> Result<(), ScanError<D::Error>> {
-        let Some(window) = self.window else {
-            return Err(ScanError::OutOfTurn { line: 0 });
-        };
+        let window = self.window.ok_or(ScanError::OutOfTurn { line: 0 })?;
         let line = self.next_line();
         self.start_band(window).map_err(|error| self.fail(error))?;
         while self.in_flight > 0 {
@@ -280,7 +276,7 @@ impl<D: ScanoutDma> Pump<D> {
         if line < window.height {
             return Err(ScanError::LinesMissing { line });
         }
-        closed.map_err(|error| ScanError::Sink { line, error })
+        closed.map_err(sink(line))
     }
 
     /// The figures so far.
@@ -306,7 +302,7 @@ impl<D: ScanoutDma> Pump<D> {
     /// Takes the pump apart, after waiting for what still runs. A buffer that did not come home is `None`.
     pub fn release(mut self) -> (D, [Option<D::Buf>; PUMP_BUFFERS]) {
         // Whatever is wrong shows as a `None`.
-        let _ = self.recover();
+        self.give_up();
         (self.dma, self.idle)
     }
 
@@ -367,9 +363,7 @@ impl<D: ScanoutDma> Pump<D> {
             self.wait_home()?;
         }
         self.close_part()?;
-        self.dma
-            .begin(part)
-            .map_err(|error| ScanError::Sink { line, error })?;
+        self.dma.begin(part).map_err(sink(line))?;
         self.open = true;
         self.part_first = line;
         Ok(())
@@ -378,10 +372,7 @@ impl<D: ScanoutDma> Pump<D> {
     /// Closes the rectangle of the last band, if there is one.
     fn close_part(&mut self) -> Result<(), ScanError<D::Error>> {
         if core::mem::take(&mut self.open) {
-            let line = self.part_first;
-            self.dma
-                .end()
-                .map_err(|error| ScanError::Sink { line, error })?;
+            self.dma.end().map_err(sink(self.part_first))?;
         }
         Ok(())
     }
@@ -431,9 +422,7 @@ impl<D: ScanoutDma> Pump<D> {
             // A wait has just been in vain. `begin` and `release` will wait again.
             ScanError::Timeout { .. } => self.window = None,
             // The first error is the one that tells; a second one shows again in `begin`.
-            _ => {
-                let _ = self.recover();
-            }
+            _ => self.give_up(),
         }
         error
     }

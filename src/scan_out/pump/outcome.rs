@@ -55,6 +55,11 @@ pub enum ScanError<E> {
     },
 }
 
+/// What the sink says of a line.
+pub(super) fn sink<E>(line: u16) -> impl FnOnce(E) -> ScanError<E> {
+    move |error| ScanError::Sink { line, error }
+}
+
 impl<E: Error> ScanError<E> {
     /// The kind of the error, in the terms of the sinks.
     pub fn kind(&self) -> ErrorKind {

@@ -26,8 +26,6 @@ pub struct RunFrame<'p, 'm, D: ScanoutDma> {
     drawn: u16,
     /// What lies at the front of the buffer, ready to be sent, in pixels of the window; no lines when nothing does.
     packed: Window,
-    /// Whether the line `first + drawn` was handed out.
-    handed: bool,
     /// Whether an error has ended the frame.
     failed: bool,
 }
@@ -68,7 +66,6 @@ impl<D: ScanoutDma> Pump<D> {
                 height: 0,
                 ..window
             },
-            handed: false,
             failed: false,
         })
     }
@@ -88,7 +85,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         if self.pump.filling.is_none() {
             self.pump.filling = Some(self.spare()?);
         }
-        self.handed = true;
+        self.pump.handed = true;
         let range = self.drawn_words();
         part::<D>(&mut self.pump.filling, range, line)
     }
@@ -101,7 +98,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
     /// The frame is over then: it gives no line any more.
     pub fn line_done(&mut self) -> Result<(), ScanError<D::Error>> {
         let line = self.first + self.drawn;
-        if !core::mem::take(&mut self.handed) {
+        if !core::mem::take(&mut self.pump.handed) {
             return Err(ScanError::OutOfTurn { line });
         }
         let range = self.drawn_words();
@@ -126,7 +123,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
 
     /// Ends the frame, which gives no line any more, after `error`, which is handed through.
     fn fail(&mut self, error: ScanError<D::Error>) -> ScanError<D::Error> {
-        (self.failed, self.handed) = (true, false);
+        (self.failed, self.pump.handed) = (true, false);
         self.pump.fail(error)
     }
 
@@ -148,7 +145,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
     }
 
     fn send_rest(&mut self) -> Result<(), ScanError<D::Error>> {
-        self.send_packed()?;
+        self.send_packed(None)?;
         while self.pump.in_flight > 0 {
             self.pump.wait_home()?;
         }
@@ -167,11 +164,8 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         self.shown.compare(self.window.y + row.y, x, width);
         let mut unsent = words(row);
         let mut run = self.shown.next_run(x, width, 0);
-        let single = run
-            .as_ref()
-            .is_some_and(|run| self.shown.next_run(x, width, run.end).is_none());
         if run.is_none() {
-            self.send_packed()?;
+            self.send_packed(None)?;
             let lines = u32::from(self.drawn);
             self.pump.stats.lines_unsent = self.pump.stats.lines_unsent.saturating_add(lines);
         }
@@ -182,8 +176,9 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
                 width: columns.end - columns.start,
                 ..row
             };
+            let is_first = unsent == words(row);
             unsent -= words(part);
-            self.take_run(part, single, next.is_none())?;
+            self.take_run(part, is_first, next.is_none())?;
             run = next;
         }
         let bytes = unsent as u64 * size_of::<WordOf<D>>() as u64;
@@ -192,20 +187,20 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         self.first += self.drawn;
         self.drawn = 0;
         if self.packed.height.saturating_add(row.height) > self.band_lines {
-            self.send_packed()?;
+            self.send_packed(None)?;
         }
         Ok(())
     }
 
-    /// Packs a run of the drawn row, or sends it when others follow. `single`: the row has no other run.
+    /// Packs a run of the drawn row, or sends it when others follow.
     fn take_run(
         &mut self,
         run: Window,
-        single: bool,
+        first: bool,
         last: bool,
     ) -> Result<(), ScanError<D::Error>> {
         let alike = (self.packed.x, self.packed.width) == (run.x, run.width);
-        if self.packed.height > 0 && !(single && alike) {
+        if self.packed.height > 0 && !(first && last && alike) {
             self.carry(run)?;
         }
         let width = usize::from(self.window.width);
@@ -252,38 +247,26 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         for (to, from) in other.pixels().iter_mut().zip(source) {
             *to = *from;
         }
-        let full = self.pump.filling.replace(other);
-        let packed = self.take_packed();
-        match full {
-            Some(full) => self.send(packed, full),
-            None => Err(ScanError::BufferLost { line: packed.y }),
-        }
+        self.send_packed(Some(other))
     }
 
-    /// Sends what is packed, if anything is.
-    fn send_packed(&mut self) -> Result<(), ScanError<D::Error>> {
-        if self.packed.height == 0 {
+    /// Sends what is packed, if anything is; then `next` is filled.
+    fn send_packed(&mut self, next: Option<D::Buf>) -> Result<(), ScanError<D::Error>> {
+        let packed = self.packed;
+        if packed.height == 0 {
             return Ok(());
         }
-        let packed = self.take_packed();
-        match self.pump.filling.take() {
+        self.packed.height = 0;
+        match core::mem::replace(&mut self.pump.filling, next) {
             Some(full) => self.send(packed, full),
             None => Err(ScanError::BufferLost { line: packed.y }),
         }
-    }
-
-    fn take_packed(&mut self) -> Window {
-        let packed = self.packed;
-        self.packed.height = 0;
-        packed
     }
 
     /// A buffer that is home and holds a transfer, after waiting for it.
     fn spare(&mut self) -> Result<D::Buf, ScanError<D::Error>> {
         if self.pump.idle.iter().all(Option::is_none) && self.pump.in_flight > 0 {
-            if let Err(error) = self.pump.wait_home() {
-                return Err(self.fail(error));
-            }
+            self.pump.wait_home().map_err(|error| self.fail(error))?;
         }
         let line = self.first;
         let idle = self.pump.idle.iter_mut().find_map(Option::take);
