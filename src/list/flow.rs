@@ -54,11 +54,20 @@ pub enum ListCommand {
     Step,
 }
 
+/// Commands that say no place, by their codes. What has another code is a start.
+const PLAIN: [ListCommand; 5] = [
+    ListCommand::Restart,
+    ListCommand::Resume,
+    ListCommand::StopNow,
+    ListCommand::StopAtEnd,
+    ListCommand::Step,
+];
+
 /// A letter box for commands from an interrupt or another core, by one sender to one player: one at a time, the last
 /// counts. One that is replaced while it is taken may still be obeyed, before the last.
 #[derive(Debug, Default)]
 pub struct ListControl {
-    /// The last command: its kind in bits 2..0, and a running number, so that one who cannot swap words knows what is
+    /// The last command: its code in bits 2..0, and a running number, so that one who cannot swap words knows what is
     /// new. 0: none yet.
     sent: AtomicU32,
     /// The one that was taken last.
@@ -79,19 +88,13 @@ impl ListControl {
 
     /// Leaves a command; it is obeyed before the next block.
     pub fn send(&self, command: ListCommand) {
-        let code = match command {
-            ListCommand::Start(at) => {
-                self.start.store(at, Ordering::Release);
-                1
-            }
-            ListCommand::Restart => 2,
-            ListCommand::Resume => 3,
-            ListCommand::StopNow => 4,
-            ListCommand::StopAtEnd => 5,
-            ListCommand::Step => 6,
-        };
+        if let ListCommand::Start(at) = command {
+            self.start.store(at, Ordering::Release);
+        }
+        let code = PLAIN.iter().position(|plain| *plain == command);
         let number = (self.sent.load(Ordering::Relaxed) | 7).wrapping_add(1);
-        self.sent.store(number | code, Ordering::Release);
+        let sent = number | code.unwrap_or(PLAIN.len()) as u32;
+        self.sent.store(sent, Ordering::Release);
     }
 
     /// Takes the command.
@@ -102,14 +105,9 @@ impl ListControl {
             return None;
         }
         self.taken.store(sent, Ordering::Relaxed);
-        Some(match sent & 7 {
-            1 => ListCommand::Start(self.start.load(Ordering::Acquire)),
-            2 => ListCommand::Restart,
-            3 => ListCommand::Resume,
-            4 => ListCommand::StopNow,
-            5 => ListCommand::StopAtEnd,
-            _ => ListCommand::Step,
-        })
+        let start = || ListCommand::Start(self.start.load(Ordering::Acquire));
+        let plain = PLAIN.get(sent as usize & 7).copied();
+        Some(plain.unwrap_or_else(start))
     }
 }
 

@@ -107,15 +107,8 @@ pub struct OverlayRow<'w> {
     pub width: u16,
     /// They are added.
     pub additive: bool,
-    first: u32,
-    texels: Texels<'w>,
-}
-
-impl OverlayRow<'_> {
-    /// Red, green, blue and alpha of the pixel so many columns from the left one.
-    #[inline]
-    #[must_use]
-    pub fn rgba(&self, column: u16) -> [u8; 4] {
-        self.texels.rgba(self.first + u32::from(column))
-    }
+    /// The texel of the pixel at the left.
+    pub first: u32,
+    /// Those of the whole overlay.
+    pub texels: Texels<'w>,
 }

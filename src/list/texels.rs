@@ -241,6 +241,14 @@ impl<'m> TextureSlots<'m> {
         Some((palette.at.load(Ordering::Relaxed), count))
     }
 
+    /// The same of the palette that a form takes; no colours where it takes none.
+    pub(crate) fn colours_of(self, form: TexelForm, palette: u8) -> Option<(u32, u32)> {
+        match form.is_indexed() {
+            true => self.colours(palette),
+            false => Some((0, 0)),
+        }
+    }
+
     /// Whether there is the texture of a number, and its palette.
     #[must_use]
     pub fn has(self, number: u8) -> bool {
@@ -256,13 +264,8 @@ impl<'m> TextureSlots<'m> {
         let texture = texture.ok_or(Reason::NoTexture(number))?;
         let name = texture.name.load(Ordering::Relaxed);
         let form = form_of_code(name >> 16 & 15);
-        let (colours, count) = match form.is_indexed() {
-            true => {
-                let colours = self.colours((name >> 21) as u8);
-                colours.ok_or(Reason::NoPalette(number))?
-            }
-            false => (0, 0),
-        };
+        let colours = self.colours_of(form, (name >> 21) as u8);
+        let (colours, count) = colours.ok_or(Reason::NoPalette(number))?;
         let at = texture.at.load(Ordering::Relaxed);
         let [width, height] = [(name >> 8) as u8 & 15, (name >> 12) as u8 & 15];
         Ok(Pair {

@@ -16,12 +16,15 @@ pub trait Place: Copy + Default + bytemuck::Pod {
     fn of(form: FieldForm, field: [i32; 3]) -> Option<[Self; 3]>;
 }
 
-/// Left shifts that make Q1.14 of the fields of a place.
-const fn shifts(form: FieldForm) -> [u32; 3] {
+/// A place of a field in Q1.30.
+#[inline(always)]
+fn q30(form: FieldForm, f: [i32; 3]) -> [i32; 3] {
+    let [x, y, z] = f;
     match form {
-        FieldForm::S10x3 => [4, 4, 5],
-        FieldForm::S8x3 => [7; 3],
-        _ => [0; 3],
+        FieldForm::S32x3 => f,
+        FieldForm::S10x3 => [x << 20, y << 20, z << 21],
+        FieldForm::S8x3 => f.map(|v| v << 23),
+        _ => f.map(|v| v << 16),
     }
 }
 
@@ -30,11 +33,8 @@ impl Place for i16 {
 
     #[inline(always)]
     fn of(form: FieldForm, f: [i32; 3]) -> Option<[Self; 3]> {
-        if matches!(form, FieldForm::S32x3) {
-            return None;
-        }
-        let s = shifts(form);
-        Some([0, 1, 2].map(|n| (f[n] << s[n]) as i16))
+        let is_fine = matches!(form, FieldForm::S32x3);
+        (!is_fine).then(|| q30(form, f).map(|v| (v >> 16) as i16))
     }
 }
 
@@ -43,11 +43,7 @@ impl Place for i32 {
 
     #[inline(always)]
     fn of(form: FieldForm, f: [i32; 3]) -> Option<[Self; 3]> {
-        if matches!(form, FieldForm::S32x3) {
-            return Some(f);
-        }
-        let s = shifts(form);
-        Some([0, 1, 2].map(|n| f[n] << (16 + s[n])))
+        Some(q30(form, f))
     }
 }
 
@@ -193,22 +189,16 @@ impl Slot {
         let len = self.form.column_words(out.len().min(0xFFFF) as u16);
         if let (FieldForm::S8x3, Some(slice)) = (self.form, words.slice(at, len)) {
             // Whole threes of words, without a question for each whether it is there.
-            let (threes, whole) = (slice.chunks_exact(3), out.len() / 4 * 4);
-            let rest = threes.remainder();
-            let (fours, end) = out.split_at_mut(whole);
-            for (three, four) in threes.clone().zip(fours.chunks_exact_mut(4)) {
+            let whole = out.len() / 4;
+            let (fours, end) = out.split_at_mut(4 * whole);
+            for (three, four) in slice.chunks_exact(3).zip(fours.chunks_exact_mut(4)) {
                 if let ([a, b, c], [p, q, r, s]) = (three, four) {
                     let w = four_of([a, b, c].map(|w| u32::from_le(*w)));
                     let value = |w| of(FieldForm::S8x3, fields(FieldForm::S8x3, [w, 0, 0]));
                     (*p, *q, *r, *s) = (value(w[0]), value(w[1]), value(w[2]), value(w[3]));
                 }
             }
-            // Three left over take three words, which then are no remainder.
-            let rest = if end.len() == 3 {
-                slice.get(slice.len().saturating_sub(3)..).unwrap_or(rest)
-            } else {
-                rest
-            };
+            let rest = slice.get(3 * whole..).unwrap_or_default();
             let mut rest = rest.iter().map(|w| u32::from_le(*w));
             let next = || rest.next().unwrap_or(0);
             bytes(FieldForm::S8x3, next, end, |f| of(FieldForm::S8x3, f));
@@ -272,20 +262,10 @@ fn column<T>(
                 }
             }
         }
-        WORDS => {
-            for slot in out {
-                *slot = of(WORDS, fields(WORDS, [next(), next(), next()]));
-            }
-        }
-        TEN => {
-            for slot in out {
-                *slot = of(TEN, fields(TEN, [next(), 0, 0]));
-            }
-        }
+        WORDS => out.fill_with(|| of(WORDS, fields(WORDS, [next(), next(), next()]))),
+        TEN => out.fill_with(|| of(TEN, fields(TEN, [next(), 0, 0]))),
         FieldForm::U8x4 | FieldForm::U16x2 | FieldForm::U32x1 => {
-            for slot in out {
-                *slot = of(form, fields(form, [next(), 0, 0]));
-            }
+            out.fill_with(|| of(form, fields(form, [next(), 0, 0])));
         }
     }
 }

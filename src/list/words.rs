@@ -95,10 +95,8 @@ impl<'m> ListRing<'m> {
     /// An empty ring in `memory`, of which the largest power of two is used, at most 2^30 words.
     #[must_use]
     pub fn new(memory: &'m mut [AtomicU32]) -> Self {
-        let len = match memory.len() {
-            0 => 0,
-            len => (1 << len.ilog2()).min(1 << 30),
-        };
+        let log = memory.len().checked_ilog2();
+        let len = log.map_or(0, |log| 1 << log.min(30));
         let words: &'m [AtomicU32] = memory;
         Self {
             words: &words[..len],

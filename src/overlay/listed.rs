@@ -20,8 +20,8 @@ impl ListOverlays<'_> {
     pub fn paint<F: PixelFormat>(&self, line: u16, pixels: &mut [F::Word]) {
         for row in OverlaySlots(self.slots).on(line, self.words) {
             let below = pixels.get_mut(usize::from(row.left)..).unwrap_or_default();
-            for (column, pixel) in (0..row.width).zip(below) {
-                let [r, g, b, alpha] = row.rgba(column);
+            for (texel, pixel) in (row.first..).zip(below).take(row.width.into()) {
+                let [r, g, b, alpha] = row.texels.rgba(texel);
                 if alpha == 0 {
                     continue;
                 }
