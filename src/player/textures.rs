@@ -32,7 +32,8 @@ impl TextureRoom<'_> {
 struct Kept<'t> {
     texture: Texture<'t>,
     is_translucent: bool,
-    key: Key,
+    /// None of a mask, which is found by its texture.
+    key: Option<Key>,
 }
 
 impl<'t> Kept<'t> {
@@ -54,7 +55,6 @@ struct Key {
     dithers: bool,
     /// The address of its code.
     sampling: Option<usize>,
-    is_mask: bool,
 }
 
 /// A texture that is drawn with: one that was made, or the application's.
@@ -74,19 +74,17 @@ pub(super) struct Shelf<'t> {
     pub(super) levels: &'t mut [Texture<'t>],
 }
 
-/// Where texels and colours lie.
+/// Where texels and colours lie, and what is made of them.
 #[derive(Clone, Copy)]
 struct Source<'t> {
     texels: &'t [u32],
     colours: &'t [u32],
     pair: Pair,
-}
-
-/// How colours become words of the panel.
-#[derive(Clone, Copy)]
-struct Panel {
+    /// Makes words of the panel of colours.
     word: fn([u8; 3]) -> u16,
+    /// Whether some are not to be dithered where the rest is.
     dithers: bool,
+    sampling: Option<Sampling>,
 }
 
 /// Texels or colours of a palette.
@@ -101,14 +99,8 @@ struct Made<'t> {
     is_translucent: bool,
 }
 
-/// A texel, or a colour of a palette.
-#[derive(Clone, Copy)]
-struct Colour {
-    /// Red, green, blue and alpha.
-    rgba: [u8; 4],
-    /// Whether it is not to be dithered.
-    undithered: bool,
-}
+/// Red, green, blue and alpha, and whether it is not to be dithered.
+type Colour = ([u8; 4], bool);
 
 impl<'t> Shelf<'t> {
     /// The texture of a pair, whose draw calls are dithered or not.
@@ -134,17 +126,19 @@ impl<'t> Shelf<'t> {
                 count => in_place(pair.colours, count)?,
             },
             pair,
+            word: F::texel,
+            // Others do not say what is not dithered.
+            dithers: dithers && matches!(pair.form, TexelForm::Rgba | TexelForm::Rgbd5551),
+            sampling,
         };
-        let key = source.key(dithers, sampling);
-        let mut known = self.last;
-        while let Some(room) = known {
-            if let Some(kept) = room.kept.as_ref().filter(|kept| kept.key == key) {
-                return Ok(kept.listed());
-            }
-            known = room.before;
+        let key = Some(source.key());
+        let rooms = core::iter::successors(self.last, |room| room.before);
+        let mut known = rooms.filter_map(|room| room.kept.as_ref());
+        if let Some(kept) = known.find(|kept| kept.key == key) {
+            return Ok(kept.listed());
         }
         self.fits(1, source, 0)?;
-        let (texture, is_translucent) = self.make::<F>(source, key, sampling)?;
+        let (texture, is_translucent) = self.make(source)?;
         self.keep(Kept {
             texture,
             is_translucent,
@@ -181,34 +175,21 @@ impl<'t> Shelf<'t> {
 
     /// Makes a texture, with its levels of detail and its mask, if it has one; whether texels are neither opaque nor
     /// transparent.
-    fn make<F: PixelFormat>(
-        &mut self,
-        source: Source<'t>,
-        key: Key,
-        sampling: Option<Sampling>,
-    ) -> Result<(Texture<'t>, bool), Reason> {
-        let panel = Panel {
-            word: F::texel,
-            dithers: key.dithers,
+    fn make(&mut self, source: Source<'t>) -> Result<(Texture<'t>, bool), Reason> {
+        let made = match source.pair.form.is_indexed() {
+            true => self.write(source, |n| source.entry(n))?,
+            false if source.is_native() => Made::default(),
+            false => self.write(source, |n| source.texel(n))?,
         };
-        let form = source.pair.form;
-        let made = match form.is_indexed() {
-            true => self.palette(source, panel)?,
-            false if form == TexelForm::Rgb565 && panel.is_native() => Made::default(),
-            false => self.converted(source, panel)?,
-        };
-        let texture = self.levelled(source, made.words, sampling)?;
+        let texture = self.levelled(source, made.words)?;
         let texture = made.key.map_or(texture, |key| texture.keyed(key));
         let Some(masks) = made.masks else {
             return Ok((texture, false));
         };
         let mask = Kept {
-            texture: self.levelled(source, Some(masks), sampling)?,
+            texture: self.levelled(source, Some(masks))?,
             is_translucent: false,
-            key: Key {
-                is_mask: true,
-                ..key
-            },
+            key: None,
         };
         let mask = self.keep(mask)?.texture;
         // Both are made alike.
@@ -220,7 +201,6 @@ impl<'t> Shelf<'t> {
         &mut self,
         source: Source<'t>,
         words: Option<&'t [u16]>,
-        sampling: Option<Sampling>,
     ) -> Result<Texture<'t>, Reason> {
         let wrap = match source.pair.clamped {
             true => Wrap::Clamp,
@@ -233,80 +213,34 @@ impl<'t> Shelf<'t> {
                 .map_err(|_| Reason::Lent(Lent::Texels))
         };
         let made = level(0)?.wrapping(wrap);
-        let coarser = source.coarser().min(self.levels.len());
-        let (taken, rest) = core::mem::take(&mut self.levels).split_at_mut(coarser);
-        self.levels = rest;
+        let taken = take(&mut self.levels, source.coarser());
         for (number, slot) in (1..).zip(taken.iter_mut()) {
             *slot = level(number)?;
         }
-        let default = (coarser > 0).then_some(Sampling::NEAREST);
+        let default = (!taken.is_empty()).then_some(Sampling::NEAREST);
         // Each level has half the sides of the one above it.
         let sampled = |sampling| made.sampled(sampling, taken).unwrap_or(made);
-        Ok(sampling.or(default).map_or(made, sampled))
+        Ok(source.sampling.or(default).map_or(made, sampled))
     }
 
-    /// The palette of one whose texels name colours. What the list's does not have is black.
-    fn palette(&mut self, source: Source<'t>, panel: Panel) -> Result<Made<'t>, Reason> {
-        let (count, codes) = match source.pair.form {
-            TexelForm::Index1 => (2, 2),
-            TexelForm::Index2 => (4, 4),
-            TexelForm::Index4 => (16, 16),
-            // Two bits of a byte mean nothing.
-            TexelForm::Index6 => (256, 64),
-            _ => (256, 256),
-        };
-        self.write(source, panel, count, |n| {
-            let colour = source.colours.get((n % codes) as usize);
-            Colour {
-                rgba: colour.map_or([0, 0, 0, 255], |w| u32::from_le(*w).to_le_bytes()),
-                undithered: false,
-            }
-        })
-    }
-
-    /// The texels of one whose texels are colours, level by level.
-    fn converted(&mut self, source: Source<'t>, panel: Panel) -> Result<Made<'t>, Reason> {
-        let pair = source.pair;
-        // The level of a texel, and its number there.
-        let of = |mut n: u32| {
-            let mut level = 0;
-            loop {
-                let [width, height] = pair.sides(level);
-                if n < width * height || level == pair.levels {
-                    break (Texels::new(source.words_of(level), pair.form, &[]), n);
-                }
-                (n, level) = (n - width * height, level + 1);
-            }
-        };
-        self.write(source, panel, source.texels_above(pair.levels), |n| {
-            let (texels, n) = of(n);
-            Colour {
-                rgba: texels.rgba(n),
-                undithered: texels.is_undithered(n),
-            }
-        })
-    }
-
-    /// Writes so many colours by their numbers. Memory is taken once there is enough for all that comes of them.
+    /// Writes the colours of a source by their numbers. Memory is taken once there is enough for all that comes of them.
     fn write(
         &mut self,
         source: Source<'t>,
-        panel: Panel,
-        count: usize,
         of: impl Fn(u32) -> Colour,
     ) -> Result<Made<'t>, Reason> {
+        let count = source.count();
         self.fits(1, source, count)?;
         let words = self.words.get_mut(..count).unwrap_or_default();
         let (mut has_holes, mut is_translucent, mut is_dithered) = (false, false, true);
         for (n, slot) in (0..).zip(words.iter_mut()) {
-            let colour = of(n);
-            let [r, g, b, alpha] = colour.rgba;
+            let ([r, g, b, alpha], undithered) = of(n);
             has_holes |= alpha == 0;
             is_translucent |= !matches!(alpha, 0 | 255);
-            is_dithered &= !colour.undithered;
-            *slot = (panel.word)([r, g, b]);
+            is_dithered &= !undithered;
+            *slot = (source.word)([r, g, b]);
         }
-        let is_hole = |n: u32| of(n).rgba[3] == 0;
+        let is_hole = |n: u32| of(n).0[3] == 0;
         let has_key = has_holes && !is_translucent;
         let key = has_key.then(|| unused(words, is_hole)).flatten();
         is_translucent |= has_holes && key.is_none();
@@ -317,10 +251,10 @@ impl<'t> Shelf<'t> {
                 }
             }
         }
-        let has_masks = is_translucent || panel.dithers && !is_dithered;
+        let has_masks = is_translucent || source.dithers && !is_dithered;
         self.fits(1 + usize::from(has_masks), source, count)?;
         Ok(Made {
-            words: Some(self.take(count)),
+            words: Some(take(&mut self.words, count)),
             key,
             masks: has_masks.then(|| self.masks(count, of)),
             is_translucent,
@@ -329,26 +263,25 @@ impl<'t> Shelf<'t> {
 
     /// What is said of so many colours.
     fn masks(&mut self, count: usize, of: impl Fn(u32) -> Colour) -> &'t [u16] {
-        let masks = self.take(count);
+        let masks = take(&mut self.words, count);
         for (n, slot) in (0..).zip(masks.iter_mut()) {
-            let colour = of(n);
-            let texel = MaskTexel::alpha(colour.rgba[3]);
-            *slot = match colour.undithered {
+            let ([.., alpha], undithered) = of(n);
+            let texel = MaskTexel::alpha(alpha);
+            *slot = match undithered {
                 true => texel.undithered().word(),
                 false => texel.word(),
             };
         }
         masks
     }
+}
 
-    /// So many words of the lent memory, which has them.
-    fn take(&mut self, count: usize) -> &'t mut [u16] {
-        let words = core::mem::take(&mut self.words);
-        let count = count.min(words.len());
-        let (taken, rest) = words.split_at_mut(count);
-        self.words = rest;
-        taken
-    }
+/// So many of the lent, which are there.
+fn take<'t, T>(lent: &mut &'t mut [T], count: usize) -> &'t mut [T] {
+    let parts = core::mem::take(lent).split_at_mut_checked(count);
+    let (taken, rest) = parts.unwrap_or_default();
+    *lent = rest;
+    taken
 }
 
 impl<'t> Source<'t> {
@@ -394,8 +327,44 @@ impl<'t> Source<'t> {
         }
     }
 
-    fn key(&self, dithers: bool, sampling: Option<Sampling>) -> Key {
-        let is_told = matches!(self.pair.form, TexelForm::Rgba | TexelForm::Rgbd5551);
+    /// How many colours are written.
+    fn count(&self) -> usize {
+        match self.pair.form {
+            TexelForm::Index1 => 2,
+            TexelForm::Index2 => 4,
+            TexelForm::Index4 => 16,
+            TexelForm::Index6 | TexelForm::Index8 => 256,
+            _ => self.texels_above(self.pair.levels),
+        }
+    }
+
+    /// A colour of the palette by its number. What the list's does not have is black.
+    fn entry(&self, n: u32) -> Colour {
+        let code = match self.pair.form {
+            // Two bits of a byte mean nothing.
+            TexelForm::Index6 => n & 63,
+            _ => n,
+        };
+        let colour = self.colours.get(code as usize);
+        let rgba = colour.map_or([0, 0, 0, 255], |w| u32::from_le(*w).to_le_bytes());
+        (rgba, false)
+    }
+
+    /// A texel by its number, those of the first level first.
+    fn texel(&self, mut n: u32) -> Colour {
+        let mut level = 0;
+        let texels = loop {
+            let [width, height] = self.pair.sides(level);
+            if n < width * height || level == self.pair.levels {
+                break Texels::new(self.words_of(level), self.pair.form, &[]);
+            }
+            (n, level) = (n - width * height, level + 1);
+        };
+        (texels.rgba(n), texels.is_undithered(n))
+    }
+
+    /// What tells it from others.
+    fn key(&self) -> Key {
         Key {
             texels: self.texels.as_ptr().addr(),
             colours: self.colours.as_ptr().addr(),
@@ -404,20 +373,16 @@ impl<'t> Source<'t> {
                 colours: 0,
                 ..self.pair
             },
-            // Others do not say what is not dithered.
-            dithers: dithers && is_told,
-            sampling: sampling.map(|sampling| sampling.draw as usize),
-            is_mask: false,
+            dithers: self.dithers,
+            sampling: self.sampling.map(|sampling| sampling.draw as usize),
         }
     }
-}
 
-impl Panel {
-    /// Whether its words are those of a list's texels of 16 bits.
-    fn is_native(self) -> bool {
-        [([255, 0, 0], 0xF800), ([0, 255, 0], 0x07E0), ([0, 0, 8], 1)]
-            .into_iter()
-            .all(|(rgb, word)| (self.word)(rgb) == word)
+    /// Whether its texels are words of the panel as they lie.
+    fn is_native(&self) -> bool {
+        let words = [([255, 0, 0], 0xF800), ([0, 255, 0], 0x07E0), ([0, 0, 8], 1)];
+        let is_alike = words.iter().all(|&(rgb, word)| (self.word)(rgb) == word);
+        is_alike && self.pair.form == TexelForm::Rgb565
     }
 }
 
