@@ -1,5 +1,6 @@
 //! Blocks of a list, one by one: what each does to the draw call, and what is refused.
 
+use super::gather::Gather;
 use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
@@ -12,296 +13,288 @@ use crate::list::{
 use crate::look::Look;
 use crate::scene::Shadow;
 
-impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
+impl<'n, 'm, 't, L: Look, C: Coordinate + Place, W: Words<'t>> Stage<'_, 'n, 'm, 't, L, C, W> {
     /// Does one block.
-    pub(super) fn execute(
-        &mut self,
-        words: impl Words<'t>,
-        instruction: Instruction,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<Step, ListError> {
-        self.counts.blocks = self.counts.blocks.saturating_add(1);
+    pub(super) fn execute(&mut self, instruction: Instruction) -> Result<Step, ListError> {
+        let counts = &mut self.player.counts;
+        counts.blocks = counts.blocks.saturating_add(1);
         let (id, done) = match instruction {
-            Instruction::State(state) => (Id::State, self.change(words, state, stage)),
+            Instruction::State(state) => (Id::State, self.change(state)),
             Instruction::Flow(Flow::LoadTexture { number, at }) => {
-                (Id::Flow, self.load(words, number, at, stage))
+                (Id::Flow, self.load(number, at).map(|()| Step::Passed))
             }
             _ => match instruction.run() {
-                Some(run) => (run.header.id, self.take(words, run, stage)),
+                Some(run) => (run.header.id, self.take(run).map(|()| Step::Passed)),
                 // The walker keeps the others.
                 None => (Id::Later, Ok(Step::Passed)),
             },
         };
-        done.map_err(|reason| self.walker.fail(id, reason))
+        done.map_err(|reason| self.player.walker.fail(id, reason))
     }
 
     /// Takes vertices or faces.
-    fn take(
-        &mut self,
-        words: impl Words<'t>,
-        run: Run,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<Step, Reason> {
+    fn take(&mut self, run: Run) -> Result<(), Reason> {
         let id = run.header.id;
-        let is_volume = matches!(self.state.draw.shadow, Some(Shadow::Volume(_)));
+        let draw = &self.player.state.draw;
+        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
         if is_volume && matches!(id, Id::Points | Id::Long) {
             return Err(Reason::Missing(Missing::Shadows));
         }
         if id == Id::Long {
-            return self.take_long(words, run, stage);
+            return self.take_long(run);
         }
-        self.find_texture(words)?;
-        let format = self.walker.format();
+        self.find_texture()?;
+        let player = &*self.player;
         if id != Id::Indexed {
-            let layout = Layout::new(format, run.header);
-            if self.state.draw.lamps.is_some() && layout.colour.is_some() {
+            let layout = Layout::new(player.walker.format(), run.header);
+            if player.state.draw.lamps.is_some() && layout.colour.is_some() {
                 return Err(Reason::Missing(Missing::LightAtVertices));
             }
-        } else if self.state.texture.is_some() && self.gather.lacks_table_places() {
+        } else if player.state.texture.is_some() && player.gather.lacks_table_places() {
             return Err(Reason::Lent(Lent::Places));
         }
-        let offset = self.walker.offset();
-        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
-            .lit_by(self.lights.as_deref());
-        let (gather, point_size) = (&mut self.gather, self.state.point_size);
-        let done = drawer.gather(self.casts.as_mut(), |out| match id {
-            Id::Table => gather.table(words, format, run, out),
-            Id::Indexed => gather.indexed(words, run, out),
-            _ => gather.run(words, format, run, point_size, out),
-        })?;
-        done.map(|()| Step::Passed)
+        let words = self.words;
+        let (drawer, gather) = self.drawer();
+        drawer.gather(words, |out| match id {
+            Id::Table => gather.table(run, out),
+            Id::Indexed => gather.indexed(run, out),
+            _ => gather.run(run, out),
+        })?
     }
 
     /// Draws vertices that were set up beforehand; what was gathered before them first.
-    fn take_long(
-        &mut self,
-        words: impl Words<'t>,
-        run: Run,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<Step, Reason> {
-        if self.state.draw.lamps.is_some() {
+    fn take_long(&mut self, run: Run) -> Result<(), Reason> {
+        if self.player.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
-        self.draw(words, stage)?;
-        self.gather.pause();
-        self.find_texture(words)?;
-        let offset = self.walker.offset();
+        self.draw()?;
+        self.player.gather.pause();
+        self.find_texture()?;
+        let words = self.words;
+        let (mut drawer, gather) = self.drawer();
         let count = u32::from(run.header.count);
-        self.counts.vertices = self.counts.vertices.saturating_add(count);
-        let mut drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
-        let (colour, sides) = (self.state.draw.colour, drawer.sides());
-        let has_alphas = self.has_alphas;
-        self.long
-            .take(words, run, colour, sides, |triangles, alphas| {
-                let alphas = if has_alphas { alphas } else { &[] };
-                drawer.draw_long(triangles, alphas, run.header);
-            });
-        drawer.done().map(|()| Step::Passed)
+        drawer.counts.vertices = drawer.counts.vertices.saturating_add(count);
+        let (colour, sides) = (drawer.state.draw.colour, drawer.sides());
+        let has_alphas = !gather.alphas.is_empty();
+        (gather.long).take(words, run, colour, sides, |triangles, alphas| {
+            let alphas = if has_alphas { alphas } else { &[] };
+            drawer.draw_long(triangles, alphas, run.header);
+        });
+        drawer.done()
     }
 
     /// Draws what was gathered.
-    pub(super) fn flush(
-        &mut self,
-        words: impl Words<'t>,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<(), ListError> {
-        self.draw(words, stage)
-            .map_err(|reason| self.walker.fail(Id::Flow, reason))
+    pub(super) fn flush(&mut self) -> Result<(), ListError> {
+        self.draw()
+            .map_err(|reason| self.player.walker.fail(Id::Flow, reason))
     }
 
-    fn draw(
-        &mut self,
-        words: impl Words<'t>,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<(), Reason> {
-        let offset = self.walker.offset();
-        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
-            .lit_by(self.lights.as_deref());
-        drawer.gather(self.casts.as_mut(), |out| self.gather.flush(words, out))
+    fn draw(&mut self) -> Result<(), Reason> {
+        let words = self.words;
+        let (drawer, gather) = self.drawer();
+        drawer.gather(words, |out| gather.flush(out))
+    }
+
+    /// Who draws, and what was gathered.
+    fn drawer(&mut self) -> (Drawer<'_, 'n, 'm, 't, L, C>, &mut Gather<'m, C>) {
+        let player = &mut *self.player;
+        let drawer = Drawer {
+            scene: self.scene.as_deref_mut(),
+            state: &player.state,
+            settings: &player.settings,
+            walker: &player.walker,
+            counts: &mut player.counts,
+            events: &mut *self.events,
+            lights: player.lights.as_deref(),
+            casts: player.casts.as_mut(),
+            lack: None,
+        };
+        (drawer, &mut player.gather)
     }
 
     /// The texture that the material names: of the settings, or of the list with the palette that it names now.
     #[inline]
-    fn find_texture(&mut self, words: impl Words<'t>) -> Result<(), Reason> {
-        if !core::mem::take(&mut self.state.is_stale) {
+    fn find_texture(&mut self) -> Result<(), Reason> {
+        let player = &mut *self.player;
+        if !core::mem::take(&mut player.state.is_stale) {
             return Ok(());
         }
-        self.state.texture = None;
-        let Some(number) = self.state.material.texture.filter(|_| L::TEXTURED) else {
+        player.state.texture = None;
+        let Some(number) = player.state.material.texture.filter(|_| L::TEXTURED) else {
             return Ok(());
         };
-        if let Some(Some(texture)) = self.settings.textures.get(usize::from(number)) {
-            self.state.texture = Some(Listed {
+        if let Some(Some(texture)) = player.settings.textures.get(usize::from(number)) {
+            player.state.texture = Some(Listed {
                 texture,
                 is_translucent: texture.mask().is_some(),
             });
             return Ok(());
         }
-        let pair = self.names.pair(number)?;
-        let (dithers, sampling) = (self.state.draw.dither, self.settings.sampling);
-        let texture = self
+        let pair = player.names.pair(number)?;
+        let (dithers, sampling) = (player.state.draw.dither, player.settings.sampling);
+        let texture = player
             .shelf
-            .texture::<L::Pixel>(words, pair, dithers, sampling)?;
-        self.state.texture = Some(texture);
+            .texture::<L::Pixel>(self.words, pair, dithers, sampling)?;
+        player.state.texture = Some(texture);
         Ok(())
     }
 
     /// Gives a number to the texture that is defined elsewhere in the list; the walker has seen
     /// that one is there.
-    fn load(
-        &mut self,
-        words: impl Words<'t>,
-        number: u8,
-        at: u32,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<Step, Reason> {
-        self.draw(words, stage)?;
-        let block = read_block(words, at, self.walker.format());
-        if let Ok(Instruction::State(State::Texture(texture))) = block.map(|b| b.instruction) {
-            self.define(&Texture { number, ..texture })?;
+    fn load(&mut self, number: u8, at: u32) -> Result<(), Reason> {
+        self.draw()?;
+        let block = read_block(self.words, at, self.player.walker.format());
+        match block.map(|b| b.instruction) {
+            Ok(Instruction::State(State::Texture(t))) => self.define(&Texture { number, ..t }),
+            _ => Ok(()),
         }
-        Ok(Step::Passed)
     }
 
     /// Gives a texture its number.
     fn define(&mut self, texture: &Texture) -> Result<(), Reason> {
-        self.state.is_stale = true;
-        let is_kept = !L::TEXTURED || self.names.texture(texture);
+        self.player.state.is_stale = true;
+        let is_kept = !L::TEXTURED || self.player.names.texture(texture);
         is_kept.then_some(()).ok_or(Reason::Lent(Lent::Names))
     }
 
     /// Passes over what a sphere holds that cannot be seen.
-    fn skip(&mut self, words: impl Words<'t>, bounds: &Bounds, stage: &Stage<'_, '_, 't, L>) {
-        let Some(scene) = &stage.scene else { return };
+    fn skip(&mut self, bounds: &Bounds) {
+        let Some(scene) = &self.scene else { return };
         let Some(camera) = &scene.camera else { return };
         let (sphere, scale) = (Sphere::from(bounds), Affine::scale_of(bounds));
-        let model = scale.then(&self.settings.draw.model);
+        let model = scale.then(&self.player.settings.draw.model);
         if self.passes_over() && sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
-            self.pass_over(words, bounds.words);
+            self.pass_over(bounds.words);
         }
     }
 
     /// Passes over faces that are all seen from behind.
-    fn skip_behind(&mut self, words: impl Words<'t>, cone: &Cone, stage: &Stage<'_, '_, 't, L>) {
-        let Some(scene) = &stage.scene else { return };
+    fn skip_behind(&mut self, cone: &Cone) {
+        let Some(scene) = &self.scene else { return };
         let Some(camera) = &scene.camera else { return };
-        let draw = &self.state.draw;
-        if !draw.is_one_sided() || !self.passes_over() {
+        let is_asked = self.passes_over();
+        let state = &mut self.player.state;
+        if !state.draw.is_one_sided() || !is_asked {
             return;
         }
-        let find = || Eye::new(&draw.model, &camera.view);
-        let eye = *self.state.eye.get_or_insert_with(find);
+        let find = || Eye::new(&state.draw.model, &camera.view);
+        let eye = *state.eye.get_or_insert_with(find);
         if eye.is_some_and(|eye| eye.is_behind(&Meshlet::from(cone))) {
-            self.pass_over(words, cone.words);
-            self.gather.lacks_faces();
+            self.pass_over(cone.words);
+            self.player.gather.lacks_faces();
         }
     }
 
     /// Whether what is out of sight may be passed over: it casts no shadow into what is seen.
     fn passes_over(&self) -> bool {
-        self.settings.casting().is_empty()
+        self.player.settings.casting().is_empty()
     }
 
     /// Goes on behind so many words. Of a ring, what is not yet there cannot be passed over.
-    fn pass_over(&mut self, words: impl Words<'t>, count: u32) {
-        let to = self.walker.position().wrapping_add(count);
-        if self.walker.jump(words, to) {
-            let counts = &mut self.counts;
+    fn pass_over(&mut self, count: u32) {
+        let walker = &mut self.player.walker;
+        let to = walker.position().wrapping_add(count);
+        if walker.jump(self.words, to) {
+            let counts = &mut self.player.counts;
             counts.skipped = counts.skipped.saturating_add(1);
             counts.skipped_words = counts.skipped_words.saturating_add(count);
         }
     }
 
     /// Takes new state; what was gathered is drawn with the old one.
-    fn change(
-        &mut self,
-        words: impl Words<'t>,
-        state: State,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<Step, Reason> {
+    fn change(&mut self, state: State) -> Result<Step, Reason> {
         match state {
             State::Head(_) | State::Format(_) | State::Bounds(_) | State::Cone(_) => {}
-            _ => self.draw(words, stage)?,
+            _ => self.draw()?,
         }
+        let player = &mut *self.player;
         match state {
             State::Head(_) | State::Format(_) => {}
-            State::Bounds(bounds) => self.skip(words, &bounds, stage),
-            State::Cone(cone) => self.skip_behind(words, &cone, stage),
-            State::Matrix(m) => self.state.place(Some(Affine::from(&m)), &self.settings),
+            State::Bounds(bounds) => self.skip(&bounds),
+            State::Cone(cone) => self.skip_behind(&cone),
+            State::Matrix(m) => player.state.place(Some(Affine::from(&m)), &player.settings),
             State::Light { number, light } => self.light(number, Some(light))?,
             State::LightOff { number } => self.light(number, None)?,
             State::Material(material) => self.material(material)?,
-            State::Camera(_) if !self.settings.camera => return Ok(Step::Violation),
+            State::Camera(_) if !player.settings.camera => return Ok(Step::Violation),
             State::Camera(camera) => {
-                let camera = Camera::listed(&camera, stage.screen.height());
+                let camera = Camera::listed(&camera, self.screen.height());
                 let camera = camera.map_err(|_| Reason::Camera)?;
-                if let Some(scene) = &mut stage.scene {
+                if let Some(scene) = &mut self.scene {
                     scene.camera = Some(camera);
                 }
-                self.state.eye = None;
+                player.state.eye = None;
             }
-            State::Window(window) => return self.window(window, stage),
+            State::Window(window) => return self.window(window),
             State::Texture(texture) => self.define(&texture)?,
             State::Palette(palette) => {
-                let is_used = L::TEXTURED || !self.overlays.0.is_empty();
-                if is_used && !self.names.palette(&palette) {
+                let is_used = L::TEXTURED || !player.overlays.0.is_empty();
+                if is_used && !player.names.palette(&palette) {
                     return Err(Reason::Lent(Lent::Names));
                 }
-                self.state.is_stale = true;
+                player.state.is_stale = true;
             }
-            State::Overlay(overlay) => self.overlay(words, &overlay)?,
-            State::PointSize(size) => self.state.point_size = size,
+            State::Overlay(overlay) => self.overlay(&overlay)?,
+            State::PointSize(size) => player.state.point_size = size,
         }
         Ok(Step::Passed)
     }
 
     /// Keeps an overlay for those who draw the lines.
-    fn overlay(&self, words: impl Words<'t>, overlay: &Overlay) -> Result<(), Reason> {
-        if self.overlays.0.is_empty() {
+    fn overlay(&self, overlay: &Overlay) -> Result<(), Reason> {
+        let (overlays, names) = (self.player.overlays, self.player.names);
+        if overlays.0.is_empty() {
             return Err(Reason::Lent(Lent::Overlays));
         }
-        let colours = match overlay.form.is_indexed() {
-            true => self.names.colours(overlay.palette),
-            false => Some((0, 1)),
-        };
+        let colours = names.colours_of(overlay.form, overlay.palette);
         let (colours, count) = colours.ok_or(Reason::NoPalette(overlay.palette))?;
-        if words.slice(overlay.at, overlay.words()).is_none() {
+        if (self.words.slice(overlay.at, overlay.words())).is_none() {
             return Err(Reason::Missing(Missing::TexelsInPieces));
         }
-        let is_kept = self.overlays.push(overlay, colours, count);
+        let is_kept = overlays.push(overlay, colours, count);
         is_kept.then_some(()).ok_or(Reason::Lent(Lent::Overlays))
     }
 
     fn light(&mut self, number: u8, light: Option<LightWords>) -> Result<(), Reason> {
-        if light.is_some() && self.state.draw.lamps.is_some() {
+        let player = &mut *self.player;
+        if light.is_some() && player.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
-        lights::set(self.lights.as_deref_mut(), &mut self.state, number, light)
+        lights::set(
+            player.lights.as_deref_mut(),
+            &mut player.state,
+            number,
+            light,
+        )
     }
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {
         // What lights of the settings fall on is for those to say, and so is light at pixels.
-        let is_theirs = self.state.lights.is_some() || self.state.draw.lamps.is_some();
-        if material.specular != [0; 3] && (is_theirs || self.lights.is_none()) {
+        let state = &mut self.player.state;
+        let is_theirs = state.lights.is_some() || state.draw.lamps.is_some();
+        if material.specular != [0; 3] && (is_theirs || self.player.lights.is_none()) {
             return Err(Reason::Missing(Missing::Highlights));
         }
         if material.texture.is_some() && !L::TEXTURED {
             return Err(Reason::Missing(Missing::Textures));
         }
-        self.state.material(material);
+        state.material(material);
         Ok(())
     }
 
     /// Cuts to a window, if it is one that was granted.
-    fn window(&mut self, window: Window, stage: &Stage<'_, '_, 't, L>) -> Result<Step, Reason> {
-        let all = Window::all(stage.screen.width(), stage.screen.height());
-        if !self.settings.window.unwrap_or(all).contains(window) {
+    fn window(&mut self, window: Window) -> Result<Step, Reason> {
+        let all = Window::all(self.screen.width(), self.screen.height());
+        let Player {
+            state, settings, ..
+        } = &mut *self.player;
+        if !settings.window.unwrap_or(all).contains(window) {
             return Ok(Step::Violation);
         }
-        if self.settings.draw.scissor.is_some() && window != all {
+        if settings.draw.scissor.is_some() && window != all {
             return Err(Reason::Missing(Missing::SecondScissor));
         }
-        (self.state).cut(&self.settings, Some(window).filter(|_| window != all));
+        state.cut(settings, Some(window).filter(|_| window != all));
         Ok(Step::Passed)
     }
 }

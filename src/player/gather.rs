@@ -18,46 +18,19 @@ mod places;
 mod table;
 mod vertices;
 
+use super::long::LongStrip;
 use crate::geometry::{Coordinate, Faces, Mesh, QuadSplit};
-use crate::list::{Place, Reason, Slot, Strip, Words};
+use crate::list::{Layout, Place, Reason, Run, Slot, Strip, VertexFormat, Words};
 use core::ops::Range;
 pub(crate) use places::texels;
-
-/// Memory in which vertices are unpacked.
-pub(crate) struct Unpacked<'m, C> {
-    pub(crate) positions: &'m mut [[C; 3]],
-    pub(crate) normals: &'m mut [[i16; 3]],
-    pub(crate) colours: &'m mut [[u8; 3]],
-    pub(crate) indices: &'m mut [u16],
-    pub(crate) places: &'m mut [[i32; 2]],
-    /// None where alphas are passed over.
-    pub(crate) alphas: &'m mut [u8],
-}
-
-/// Where an attribute of the table is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Column {
-    None,
-    InPlace(Slot),
-    Unpacked(Slot),
-}
 
 /// The table in force.
 #[derive(Clone, Copy, Debug)]
 struct Table {
-    at: u32,
-    count: u16,
-    place: Column,
-    normal: Column,
-    colour: Column,
-    texture: Option<Slot>,
-    /// Whether alphas were unpacked.
-    alphas: bool,
-    prsp: bool,
+    run: Run,
+    layout: Layout,
     /// The sides of the texture for which places were unpacked.
     placed: Option<[u8; 2]>,
-    /// Its vertices could be had.
-    usable: bool,
     /// Faces of it were passed over.
     lacks_faces: bool,
 }
@@ -66,22 +39,20 @@ impl Table {
     /// Whether so few faces are drawn that to look for their vertices, 9 instructions a corner on a Cortex-M4, is cheaper
     /// than to move all, 90 each: of closed meshes half as many vertices have a face as there are faces, else all corners.
     fn is_partly(&self, faces: usize) -> bool {
-        let count = usize::from(self.count);
+        let count = usize::from(self.run.header.count);
         4 * faces < count || self.lacks_faces && faces < count
     }
 }
 
 /// What is being gathered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Kind {
+    #[default]
     Nothing,
     /// Triangles of the table.
     Table,
     /// Triangles, quads, a quad strip or points of unpacked vertices with these attributes.
-    Run {
-        faces: RunFaces,
-        has: Attributes,
-    },
+    Run { faces: RunFaces, has: Attributes },
 }
 
 /// What vertices have beside their places in space.
@@ -123,21 +94,32 @@ pub(crate) struct Gathered<'a, C> {
     pub(crate) partly: bool,
 }
 
-/// Where meshes go.
-pub(crate) struct Out<'o, C> {
+/// Where meshes go, and where what they are made of comes from.
+pub(crate) struct Out<'o, C, W> {
+    pub(crate) words: W,
+    pub(crate) format: &'o VertexFormat,
     /// Whether anything is ever textured: places are kept then.
     pub(crate) textured: bool,
     /// Binary logarithms of the sides of the texture that is drawn with.
     pub(crate) sides: Option<[u8; 2]>,
+    /// Pixels each way that a point has.
+    pub(crate) point_size: u8,
     /// Byte offset of the block that is taken.
     pub(crate) block: u32,
     /// Who draws them.
     pub(crate) draw: &'o mut dyn FnMut(&Gathered<'_, C>),
 }
 
-/// Faces on their way into a scene.
+/// Faces on their way into a scene, and memory in which their vertices are unpacked.
+#[derive(Default)]
 pub(crate) struct Gather<'m, C> {
-    memory: Unpacked<'m, C>,
+    pub(crate) positions: &'m mut [[C; 3]],
+    pub(crate) normals: &'m mut [[i16; 3]],
+    pub(crate) colours: &'m mut [[u8; 3]],
+    pub(crate) indices: &'m mut [u16],
+    pub(crate) places: &'m mut [[i32; 2]],
+    /// None where alphas are passed over.
+    pub(crate) alphas: &'m mut [u8],
     kind: Kind,
     table: Option<Table>,
     /// Unpacked vertices of the table; those of runs come behind.
@@ -145,31 +127,20 @@ pub(crate) struct Gather<'m, C> {
     /// Unpacked vertices of runs.
     vertices: usize,
     /// Indices in use.
-    indices: usize,
+    used: usize,
     /// Byte offset of the block of the first of them.
     block: u32,
     /// The last vertices, from which a strip goes on.
     strip: Strip,
+    /// The same of vertices that were set up beforehand.
+    pub(crate) long: LongStrip,
 }
 
-impl<'m, C: Coordinate + Place> Gather<'m, C> {
-    pub(crate) fn new(memory: Unpacked<'m, C>) -> Self {
-        Self {
-            memory,
-            kind: Kind::Nothing,
-            table: None,
-            base: 0,
-            vertices: 0,
-            indices: 0,
-            block: 0,
-            strip: Strip::default(),
-        }
-    }
-
+impl<C: Coordinate + Place> Gather<'_, C> {
     /// Forgets everything that was gathered and kept.
     pub(crate) fn reset(&mut self) {
         (self.kind, self.table) = (Kind::Nothing, None);
-        (self.base, self.vertices, self.indices) = (0, 0, 0);
+        (self.base, self.vertices, self.used) = (0, 0, 0);
         self.strip.restart();
     }
 
@@ -186,42 +157,46 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
         }
     }
 
-    /// Faces of a block follow.
-    fn begin(&mut self, out: &Out<'_, C>) {
-        if self.indices == 0 {
-            self.block = out.block;
+    /// Faces of a block at an offset follow.
+    fn begin(&mut self, block: u32) {
+        if self.used == 0 {
+            self.block = block;
         }
+    }
+
+    /// The alphas of vertices, where they have some and they are not passed over.
+    fn alpha(&self, layout: &Layout) -> Option<Slot> {
+        let has_alpha = |slot: &Slot| slot.has_alpha() && !self.alphas.is_empty();
+        layout.colour.filter(has_alpha)
     }
 
     /// Vertices that can be unpacked where these attributes are.
     fn room(&self, has: Attributes) -> usize {
-        let m = &self.memory;
-        let mut room = m.positions.len().min(1 << 16);
-        for (is, len) in [
-            (has.normals, m.normals.len()),
-            (has.colours, m.colours.len()),
-            (has.alphas, m.alphas.len()),
-            (has.places && !m.places.is_empty(), m.places.len()),
-        ] {
-            room = if is { room.min(len) } else { room };
-        }
-        room
+        let lengths = [
+            (true, self.positions.len().min(1 << 16)),
+            (has.normals, self.normals.len()),
+            (has.colours, self.colours.len()),
+            (has.alphas, self.alphas.len()),
+            (has.places && !self.places.is_empty(), self.places.len()),
+        ];
+        let asked = lengths.iter().filter(|(is_asked, _)| *is_asked);
+        asked.map(|(_, len)| *len).min().unwrap_or(0)
     }
 
     /// Hands over what was gathered. Vertices from which a strip may go on stay.
-    pub(crate) fn flush<'w>(&mut self, words: impl Words<'w>, out: &mut Out<'_, C>) {
+    pub(crate) fn flush<'w>(&mut self, out: &mut Out<'_, C, impl Words<'w>>) {
         if self.kind == Kind::Nothing {
             return;
         }
         let run = self.base..self.base + self.vertices;
-        let kept = self.kept_places();
-        let placed = self.place(words, run.clone(), out.sides);
-        if let Some(gathered) = self.gathered(words, run, placed) {
+        let kept = corners(self.places, self.base, self.strip);
+        let placed = self.place(run.clone(), out);
+        if let Some(gathered) = self.gathered(out.words, run, placed) {
             (out.draw)(&gathered);
         }
-        (self.indices, self.block) = (0, out.block);
-        if let Kind::Run { has, .. } = self.kind {
-            self.keep(has, kept);
+        (self.used, self.block) = (0, out.block);
+        if self.kind != Kind::Table {
+            self.keep(kept);
         }
     }
 
@@ -233,32 +208,33 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
         run: Range<usize>,
         placed: Result<Option<Range<usize>>, Reason>,
     ) -> Option<Gathered<'s, C>> {
-        let m = &self.memory;
-        let indices = m.indices.get(..self.indices).unwrap_or(&[]);
+        let indices = self.indices.get(..self.used).unwrap_or(&[]);
         let (mut points, mut partly) = (None, false);
         let (mesh, alphas, prsp) = match self.kind {
             Kind::Nothing => return None,
             Kind::Table => {
                 let t = self.table.as_ref()?;
-                let n = usize::from(t.count);
-                partly = t.is_partly(self.indices / 3);
+                let n = usize::from(t.run.header.count);
+                partly = t.is_partly(self.used / 3);
+                let (place, normal, colour) = (t.layout.place, t.layout.normal, t.layout.colour);
                 let mesh = Mesh {
-                    positions: column(words, t, t.place, m.positions.get(..n)),
-                    normals: column(words, t, t.normal, m.normals.get(..n)),
-                    colours: column(words, t, t.colour, m.colours.get(..n)),
+                    positions: column(words, t.run, Some(place), self.positions.get(..n)),
+                    normals: column(words, t.run, normal, self.normals.get(..n)),
+                    colours: column(words, t.run, colour, self.colours.get(..n)),
                     faces: triangles(indices),
                 };
-                (mesh, m.alphas.get(..n).filter(|_| t.alphas), t.prsp)
+                let alphas = self.alpha(&t.layout).and_then(|_| self.alphas.get(..n));
+                (mesh, alphas, t.run.header.prsp)
             }
             Kind::Run { faces, has } => {
-                let normals = m.normals.get(run.clone()).filter(|_| has.normals);
-                let colours = m.colours.get(run.clone()).filter(|_| has.colours);
-                let alphas = m.alphas.get(run.clone()).filter(|_| has.alphas);
+                let normals = self.normals.get(run.clone()).filter(|_| has.normals);
+                let colours = self.colours.get(run.clone()).filter(|_| has.colours);
+                let alphas = self.alphas.get(run.clone()).filter(|_| has.alphas);
                 if let RunFaces::Points(size) = faces {
                     points = Some(size);
                 }
                 let mesh = Mesh {
-                    positions: m.positions.get(run).unwrap_or(&[]),
+                    positions: self.positions.get(run).unwrap_or(&[]),
                     normals: normals.unwrap_or(&[]),
                     colours: colours.unwrap_or(&[]),
                     faces: faces.of(indices),
@@ -268,11 +244,11 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
         };
         let drawn = match points {
             Some(_) => !mesh.positions.is_empty(),
-            None => self.indices > 0,
+            None => self.used > 0,
         };
         drawn.then(|| Gathered {
             mesh,
-            places: placed.map(|range| m.places.get(range?)),
+            places: placed.map(|range| self.places.get(range?)),
             alphas: alphas.unwrap_or(&[]),
             prsp,
             points,
@@ -283,42 +259,22 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
 
     /// Moves the vertices of the strip to the front; places on a texture as they were gathered.
     #[inline(never)]
-    fn keep(&mut self, has: Attributes, places: [[i32; 2]; 3]) {
-        fn moved<T: Copy>(slice: &mut [T], base: usize, from: [u16; 3], have: usize) {
-            let mut kept = [None; 3];
-            for (slot, i) in kept.iter_mut().zip(from).take(have) {
-                *slot = slice.get(base + usize::from(i)).copied();
-            }
-            for (n, value) in kept.into_iter().enumerate() {
-                if let (Some(value), Some(slot)) = (value, slice.get_mut(base + n)) {
-                    *slot = value;
-                }
-            }
-        }
-        let (from, have) = (self.strip.corners, usize::from(self.strip.have));
-        moved(self.memory.positions, self.base, from, have);
-        if has.normals {
-            moved(self.memory.normals, self.base, from, have);
-        }
-        if has.colours {
-            moved(self.memory.colours, self.base, from, have);
-        }
-        if has.alphas {
-            moved(self.memory.alphas, self.base, from, have);
-        }
-        if has.places {
-            let slots = self.memory.places.get_mut(self.base..).unwrap_or(&mut []);
-            for (slot, place) in slots.iter_mut().zip(places).take(have) {
-                *slot = place;
-            }
-        }
+    fn keep(&mut self, places: Kept<[i32; 2]>) {
+        let (base, strip) = (self.base, self.strip);
+        put(self.positions, base, corners(self.positions, base, strip));
+        put(self.normals, base, corners(self.normals, base, strip));
+        put(self.colours, base, corners(self.colours, base, strip));
+        put(self.alphas, base, corners(self.alphas, base, strip));
+        put(self.places, base, places);
         self.strip.corners = [0, 1, 2];
-        self.vertices = have;
-        if let Kind::Run {
-            faces: RunFaces::QuadStrip(_),
-            ..
-        } = self.kind
-        {
+        self.vertices = strip.have.into();
+        if matches!(
+            self.kind,
+            Kind::Run {
+                faces: RunFaces::QuadStrip(_),
+                ..
+            }
+        ) {
             // Behind the kept two the strip goes on; its split is chosen by its parity.
             self.kind = Kind::Nothing;
         }
@@ -327,11 +283,31 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
     /// Appends indices, for which there is room.
     #[inline(always)]
     fn push(&mut self, indices: &[u16]) {
-        let used = self.indices;
-        if let Some(slot) = self.memory.indices.get_mut(used..used + indices.len()) {
+        let used = self.used;
+        if let Some(slot) = self.indices.get_mut(used..used + indices.len()) {
             slot.copy_from_slice(indices);
-            self.indices = used + indices.len();
+            self.used = used + indices.len();
         }
+    }
+}
+
+/// What the vertices of a strip have of something.
+type Kept<T> = [Option<T>; 3];
+
+/// What the vertices of a strip have, whose indices count from `base`.
+fn corners<T: Copy>(slice: &[T], base: usize, strip: Strip) -> Kept<T> {
+    let mut have = 0..strip.have;
+    strip.corners.map(|corner| {
+        have.next()?;
+        slice.get(base + usize::from(corner)).copied()
+    })
+}
+
+/// Puts that at `base`.
+fn put<T>(slice: &mut [T], base: usize, kept: Kept<T>) {
+    let slots = slice.get_mut(base..).unwrap_or_default();
+    for (slot, value) in slots.iter_mut().zip(kept.into_iter().flatten()) {
+        *slot = value;
     }
 }
 
@@ -351,21 +327,21 @@ impl RunFaces {
     }
 }
 
-/// An attribute of the table.
+/// An attribute of the table: where it lies in a mesh's own form, or else as it was unpacked.
 fn column<'s, 'w: 's, T: bytemuck::Pod>(
     words: impl Words<'w>,
-    table: &Table,
-    column: Column,
+    table: Run,
+    slot: Option<Slot>,
     unpacked: Option<&'s [[T; 3]]>,
 ) -> &'s [[T; 3]]
 where
     [T; 3]: bytemuck::Pod,
 {
-    match column {
-        Column::None => &[],
-        Column::Unpacked(_) => unpacked.unwrap_or(&[]),
-        Column::InPlace(slot) => slot.in_place(words, table.at, table.count).unwrap_or(&[]),
-    }
+    let found = |slot: Slot| {
+        slot.in_place(words, table.at, table.header.count)
+            .or(unpacked)
+    };
+    slot.and_then(found).unwrap_or(&[])
 }
 
 fn triangles(indices: &[u16]) -> Faces<'_> {

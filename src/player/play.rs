@@ -1,9 +1,8 @@
 //! The player: it walks a list, and halts where that says so (H12, H13, X7).
 
-use super::gather::{Gather, Unpacked};
+use super::gather::Gather;
 use super::lights;
-use super::long::LongStrip;
-use super::shadows::Casts;
+use super::shadows::{Casts, cast};
 use super::state::State;
 use super::textures::Shelf;
 use super::{LightRoom, OnViolation, RunCounts, TextureRoom};
@@ -175,9 +174,6 @@ pub struct Player<'m, 't, L, C = i16> {
     pub(super) settings: PlayerSettings<'m, 't>,
     pub(super) walker: Walker,
     pub(super) gather: Gather<'m, C>,
-    /// Whether alphas of vertices count.
-    pub(super) has_alphas: bool,
-    pub(super) long: LongStrip,
     pub(super) names: TextureSlots<'m>,
     pub(super) overlays: OverlaySlots<'m>,
     /// What was drawn has been shown: its overlays are no longer.
@@ -192,10 +188,12 @@ pub struct Player<'m, 't, L, C = i16> {
     look: PhantomData<L>,
 }
 
-/// Where blocks go.
-pub(super) struct Stage<'s, 'm, 't, L> {
-    /// None where they are only looked at.
-    pub(super) scene: Option<&'s mut Scene<'m, 't, L>>,
+/// A player at work on a list.
+pub(super) struct Stage<'s, 'n, 'm, 't, L, C, W> {
+    pub(super) player: &'s mut Player<'m, 't, L, C>,
+    pub(super) words: W,
+    /// None where blocks are only looked at.
+    pub(super) scene: Option<&'s mut Scene<'n, 't, L>>,
     pub(super) screen: Screen,
     pub(super) events: &'s mut dyn FnMut(Notice),
 }
@@ -204,18 +202,16 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     /// Stopped; [`start`](Player::start) begins.
     #[must_use]
     pub fn new(memory: PlayerMemory<'m, 't, C>, settings: PlayerSettings<'m, 't>) -> Self {
+        let mut gather = Gather::default();
+        gather.positions = memory.positions;
+        gather.normals = memory.normals;
+        gather.colours = memory.colours;
+        gather.indices = memory.indices;
+        gather.places = memory.places;
+        gather.alphas = memory.alphas;
         Self {
             walker: Walker::new(),
-            has_alphas: !memory.alphas.is_empty(),
-            gather: Gather::new(Unpacked {
-                positions: memory.positions,
-                normals: memory.normals,
-                colours: memory.colours,
-                indices: memory.indices,
-                places: memory.places,
-                alphas: memory.alphas,
-            }),
-            long: LongStrip::default(),
+            gather,
             names: TextureSlots(memory.names),
             overlays: OverlaySlots(memory.overlays),
             is_shown: false,
@@ -244,7 +240,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     /// other but for some pixels along it. Nothing is passed over that is out of sight or turned away.
     #[must_use]
     pub fn with_shadows(self, memory: ShadowMemory<'m>) -> Self {
-        let casts = Some(Casts::new(memory));
+        let casts = Some(Casts { memory, cast });
         Self { casts, ..self }
     }
 
@@ -295,7 +291,6 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.names.clear();
         self.overlays.clear();
         self.is_shown = false;
-        self.long.strip.restart();
         lights::begin(self.lights.as_deref_mut(), self.settings.draw.light);
     }
 
@@ -322,36 +317,40 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         // The scene may have been begun anew.
         self.state.eye = None;
         let mut stage = Stage {
+            player: self,
+            words,
             scene: Some(scene),
             screen,
             events,
         };
-        if self.walker.is_running() {
-            if let Err(reason) = self.fits() {
-                self.notice(&mut stage, Event::Malformed, 0);
-                return Err(self.unfit(reason));
+        if stage.player.walker.is_running() {
+            if let Err(reason) = stage.player.fits() {
+                stage.notice(Event::Malformed, 0);
+                return Err(stage.player.unfit(reason));
             }
         }
         loop {
-            if let Some(command) = self.settings.control.and_then(ListControl::take) {
+            let player = &mut *stage.player;
+            if let Some(command) = player.settings.control.and_then(ListControl::take) {
                 if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
-                    self.flush(words, &mut stage)?;
+                    stage.flush()?;
                 }
-                self.command(command);
+                stage.player.command(command);
             }
-            if self.unchecked && self.walker.is_running() {
-                if let Err(error) = self.check(words, screen, *budget) {
-                    self.notice(&mut stage, Event::Malformed, 0);
+            let player = &mut *stage.player;
+            if player.unchecked && player.walker.is_running() {
+                if let Err(error) = player.check(words, screen, *budget) {
+                    stage.notice(Event::Malformed, 0);
                     return Err(error);
                 }
             }
-            match self.step(words, budget, &mut stage) {
+            match stage.step(budget) {
                 Ok(None) => {}
                 Ok(Some(halt)) => return Ok(halt),
                 Err(error) => {
                     // What stands before it was drawn already, or is now.
-                    let _ = self.flush(words, &mut stage);
-                    self.notice(&mut stage, Event::Malformed, 0);
+                    let _ = stage.flush();
+                    stage.notice(Event::Malformed, 0);
                     return Err(error);
                 }
             }
@@ -374,14 +373,16 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.walker.command(ListCommand::Start(begin.position()));
         self.reset();
         let mut stage = Stage {
+            player: self,
+            words,
             scene: None,
             screen,
             events: &mut |_: Notice| {},
         };
         let done = loop {
-            match self.step(words, &mut budget, &mut stage) {
+            match stage.step(&mut budget) {
                 Ok(None | Some(Halt::Sync)) => {}
-                Ok(Some(Halt::Paused)) => self.walker.command(ListCommand::Resume),
+                Ok(Some(Halt::Paused)) => stage.player.walker.command(ListCommand::Resume),
                 Ok(Some(halt)) => break Ok(halt),
                 Err(error) => break Err(error),
             }
@@ -392,48 +393,6 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         }
         self.reset();
         done
-    }
-
-    /// Does the next block; why the list does not go on, if it does not.
-    fn step(
-        &mut self,
-        words: impl Words<'t>,
-        budget: &mut crate::list::Budget,
-        stage: &mut Stage<'_, '_, 't, L>,
-    ) -> Result<Option<Halt>, ListError> {
-        if core::mem::take(&mut self.is_shown) {
-            self.overlays.clear();
-        }
-        let mut step = self.walker.step(words, budget)?;
-        if let Step::Do(instruction) = step {
-            step = self.execute(words, instruction, stage)?;
-        }
-        match step {
-            Step::Do(_) | Step::Passed => {}
-            Step::Interrupt(vector) => self.notice(stage, Event::Interrupt, u32::from(vector)),
-            Step::Later => {
-                self.counts.unimplemented = self.counts.unimplemented.saturating_add(1);
-                self.notice(stage, Event::Unimplemented, 0);
-            }
-            Step::Violation => {
-                self.counts.violations = self.counts.violations.saturating_add(1);
-                self.notice(stage, Event::AccessViolation, 0);
-                if self.settings.on_violation == OnViolation::Stop {
-                    self.walker.stop();
-                    self.flush(words, stage)?;
-                    return Ok(Some(Halt::Violation));
-                }
-            }
-            Step::Halt(halt) => {
-                self.flush(words, stage)?;
-                self.is_shown = halt == Halt::Sync;
-                if let Some(event) = self.walker.event_of(halt, words) {
-                    self.notice(stage, event, 0);
-                }
-                return Ok(Some(halt));
-            }
-        }
-        Ok(None)
     }
 
     /// Whether what the settings ask for can be had.
@@ -464,12 +423,53 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.walker.stop();
         ListError::at(self.walker.position(), None, reason)
     }
+}
+
+impl<'t, L: Look, C: Coordinate + Place, W: Words<'t>> Stage<'_, '_, '_, 't, L, C, W> {
+    /// Does the next block; why the list does not go on, if it does not.
+    fn step(&mut self, budget: &mut crate::list::Budget) -> Result<Option<Halt>, ListError> {
+        let player = &mut *self.player;
+        if core::mem::take(&mut player.is_shown) {
+            player.overlays.clear();
+        }
+        let mut step = player.walker.step(self.words, budget)?;
+        if let Step::Do(instruction) = step {
+            step = self.execute(instruction)?;
+        }
+        let player = &mut *self.player;
+        match step {
+            Step::Do(_) | Step::Passed => {}
+            Step::Interrupt(vector) => self.notice(Event::Interrupt, u32::from(vector)),
+            Step::Later => {
+                player.counts.unimplemented = player.counts.unimplemented.saturating_add(1);
+                self.notice(Event::Unimplemented, 0);
+            }
+            Step::Violation => {
+                player.counts.violations = player.counts.violations.saturating_add(1);
+                self.notice(Event::AccessViolation, 0);
+                if self.player.settings.on_violation == OnViolation::Stop {
+                    self.player.walker.stop();
+                    self.flush()?;
+                    return Ok(Some(Halt::Violation));
+                }
+            }
+            Step::Halt(halt) => {
+                self.flush()?;
+                self.player.is_shown = halt == Halt::Sync;
+                if let Some(event) = self.player.walker.event_of(halt, self.words) {
+                    self.notice(event, 0);
+                }
+                return Ok(Some(halt));
+            }
+        }
+        Ok(None)
+    }
 
     #[cold]
-    pub(super) fn notice(&self, stage: &mut Stage<'_, '_, 't, L>, event: Event, value: u32) {
-        (stage.events)(Notice {
+    fn notice(&mut self, event: Event, value: u32) {
+        (self.events)(Notice {
             event,
-            offset: self.walker.offset(),
+            offset: self.player.walker.offset(),
             value,
         });
     }

@@ -10,25 +10,19 @@ use crate::look::Look;
 /// Memory for a volume at a time.
 pub(super) struct Casts<'m, 't, L, C> {
     pub(super) memory: ShadowMemory<'m>,
-    /// Draws the shadow volumes of a mesh. By a pointer that only [`new`](Casts::new) makes: what no program makes, no
-    /// program has.
+    /// By a pointer that only `with_shadows` makes: what no program makes, no program has.
     pub(super) cast: Cast<'t, L, C>,
 }
 
-type Cast<'t, L, C> = fn(&mut Drawer<'_, '_, '_, 't, L>, &Gathered<'_, C>, &mut ShadowMemory<'_>);
+type Cast<'t, L, C> = fn(&mut Drawer<'_, '_, '_, 't, L, C>, &Gathered<'_, C>, &mut ShadowMemory);
 
-impl<'m, 't, L: Look, C: Coordinate + Place> Casts<'m, 't, L, C> {
-    pub(super) fn new(memory: ShadowMemory<'m>) -> Self {
-        Self { memory, cast }
-    }
-}
-
-fn cast<L: Look, C: Coordinate + Place>(
-    drawer: &mut Drawer<'_, '_, '_, '_, L>,
+/// Draws the shadow volumes of a mesh.
+pub(super) fn cast<L: Look, C: Coordinate + Place>(
+    drawer: &mut Drawer<'_, '_, '_, '_, L, C>,
     gathered: &Gathered<'_, C>,
     memory: &mut ShadowMemory<'_>,
 ) {
-    for light in drawer.casts {
+    for light in drawer.settings.casting() {
         let Some(scene) = &mut drawer.scene else {
             return;
         };

@@ -2,13 +2,12 @@
 
 use super::gather::{Gathered, Out};
 use super::lights;
-use super::play::Stage;
 use super::shadows::Casts;
 use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, Notice};
-use crate::geometry::{Affine, Coordinate, Cull, Eye, Light, ShadowLight};
-use crate::list::{Header, Lent, Material, Missing, Place, Reason, Window};
+use crate::geometry::{Affine, Coordinate, Cull, Eye, Light};
+use crate::list::{Header, Lent, Material, Missing, Place, Reason, Walker, Window, Words};
 use crate::look::{Look, check_blend};
 use crate::scene::{
     Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
@@ -129,78 +128,46 @@ fn refused(error: DrawError) -> Reason {
 }
 
 /// Who draws what is gathered, and counts it.
-pub(super) struct Drawer<'d, 's, 'm, 't, L> {
+pub(super) struct Drawer<'d, 's, 'm, 't, L, C> {
     /// None where the list is only looked at.
     pub(super) scene: Option<&'d mut Scene<'s, 't, L>>,
     pub(super) state: &'d State<'m, 't>,
-    /// How far texels of blocks with PRSP may be from their places.
-    budget: Budget,
-    counts: &'d mut RunCounts,
-    events: &'d mut dyn FnMut(Notice),
-    /// Of the block that is taken.
-    offset: u32,
-    lack: Option<Reason>,
+    pub(super) settings: &'d PlayerSettings<'m, 't>,
+    pub(super) walker: &'d Walker,
+    pub(super) counts: &'d mut RunCounts,
+    pub(super) events: &'d mut dyn FnMut(Notice),
     /// Several lights of the list.
-    lights: Option<&'d LightRoom>,
-    /// Those that have shadows.
-    pub(super) casts: &'m [ShadowLight],
+    pub(super) lights: Option<&'d LightRoom>,
+    pub(super) casts: Option<&'d mut Casts<'m, 't, L, C>>,
+    pub(super) lack: Option<Reason>,
 }
 
-impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
-    /// Who draws with this state, for the block at an offset.
-    pub(super) fn of(
-        state: &'d State<'m, 't>,
-        settings: &PlayerSettings<'m, '_>,
-        counts: &'d mut RunCounts,
-        stage: &'d mut Stage<'_, 's, 't, L>,
-        offset: u32,
-    ) -> Self {
-        Self {
-            scene: stage.scene.as_deref_mut(),
-            state,
-            budget: settings.budget,
-            counts,
-            events: &mut *stage.events,
-            offset,
-            lack: None,
-            lights: None,
-            casts: settings.casting(),
-        }
-    }
-
-    /// The same, lit by the lights of the list too.
-    pub(super) fn lit_by(self, lights: Option<&'d LightRoom>) -> Self {
-        Self { lights, ..self }
-    }
-
+impl<'t, L: Look, C: Coordinate + Place> Drawer<'_, '_, '_, 't, L, C> {
     /// Draws what `gather` hands over, and what shadow it casts; what that says.
     ///
     /// # Errors
     /// What could not be drawn.
-    pub(super) fn gather<R, C: Coordinate + Place>(
+    pub(super) fn gather<R, W: Words<'t>>(
         mut self,
-        mut casts: Option<&mut Casts<'_, 't, L, C>>,
-        gather: impl FnOnce(&mut Out<'_, C>) -> R,
+        words: W,
+        gather: impl FnOnce(&mut Out<'_, C, W>) -> R,
     ) -> Result<R, Reason> {
         let done = gather(&mut Out {
+            words,
+            format: self.walker.format(),
             textured: L::TEXTURED,
             sides: self.sides(),
-            block: self.offset,
-            draw: &mut |mesh| self.draw(mesh, casts.as_deref_mut()),
+            point_size: self.state.point_size,
+            block: self.walker.offset(),
+            draw: &mut |mesh| self.draw(mesh),
         });
         self.done().map(|()| done)
     }
 
     /// Draws a mesh, and what shadow it casts.
-    fn draw<C: Coordinate + Place>(
-        &mut self,
-        gathered: &Gathered<'_, C>,
-        casts: Option<&mut Casts<'_, 't, L, C>>,
-    ) {
-        let places = gathered.places.unwrap_or_else(|lack| {
-            self.lack = Some(lack);
-            None
-        });
+    fn draw(&mut self, gathered: &Gathered<'_, C>) {
+        self.lack = gathered.places.err().or(self.lack);
+        let places = gathered.places.ok().flatten();
         let texture = places.and_then(|places| self.skin(places, gathered.prsp));
         let alphas = seen(gathered.alphas);
         let blend = self.blend(texture.is_some(), !alphas.is_empty());
@@ -227,8 +194,9 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         let vertices = gathered.mesh.positions.len();
         self.count(vertices, before, done, gathered.block);
         let is_solid = blend.is_none() && !self.state.material.unlit && gathered.points.is_none();
-        if let Some(casts) = casts.filter(|_| is_solid) {
+        if let Some(casts) = self.casts.take_if(|_| is_solid) {
             (casts.cast)(self, gathered, &mut casts.memory);
+            self.casts = Some(casts);
         }
     }
 
@@ -254,15 +222,21 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         };
         let before = scene.assembled();
         let done = scene.draw_screen(&draw, triangles);
-        self.count(0, before, done, self.offset);
+        self.count(0, before, done, self.walker.offset());
     }
 
     /// The texture with these places, which are to be exact or not.
     fn skin<'p>(&self, places: &'p [[i32; 2]], prsp: bool) -> Option<Skin<'p, 't>> {
+        let texture = self.state.texture?.texture;
+        let budget = if prsp {
+            self.settings.budget
+        } else {
+            Budget::FAST
+        };
         Some(Skin {
-            texture: self.state.texture?.texture,
+            texture,
             places,
-            budget: if prsp { self.budget } else { Budget::FAST },
+            budget,
         })
     }
 

@@ -3,7 +3,7 @@
 //! They are made texels of when faces are drawn, because only then it is known of which texture. A
 //! strip that goes on keeps the places that it was given.
 
-use super::{Gather, Kind};
+use super::{Gather, Kind, Out};
 use crate::geometry::Coordinate;
 use crate::list::{Lent, Place, Reason, Words};
 use core::ops::Range;
@@ -21,18 +21,6 @@ const LACKING: Reason = Reason::Lent(Lent::Places);
 pub(super) const RAW: [u8; 2] = [4; 2];
 
 impl<C: Coordinate + Place> Gather<'_, C> {
-    /// The places of the vertices from which a strip may go on.
-    pub(super) fn kept_places(&self) -> [[i32; 2]; 3] {
-        let mut kept = [[0; 2]; 3];
-        if matches!(self.kind, Kind::Run { has, .. } if has.places) {
-            for (slot, i) in kept.iter_mut().zip(self.strip.corners) {
-                let place = self.memory.places.get(self.base + usize::from(i));
-                *slot = place.copied().unwrap_or_default();
-            }
-        }
-        kept
-    }
-
     /// Makes texels of the places of what is about to be drawn, on a texture with such sides; which of the memory's places
     /// they are, if there are any.
     ///
@@ -40,23 +28,22 @@ impl<C: Coordinate + Place> Gather<'_, C> {
     /// When there was no memory for them, or they are gone.
     pub(super) fn place<'w>(
         &mut self,
-        words: impl Words<'w>,
         run: Range<usize>,
-        sides: Option<[u8; 2]>,
+        out: &Out<'_, C, impl Words<'w>>,
     ) -> Result<Option<Range<usize>>, Reason> {
-        let Some(sides) = sides else {
+        let Some(sides) = out.sides else {
             return Ok(None);
         };
         match self.kind {
             Kind::Run { has, .. } if has.places => {
-                let places = self.memory.places.get_mut(run.clone());
+                let places = self.places.get_mut(run.clone());
                 for place in places.ok_or(LACKING)? {
                     *place = texels(*place, sides);
                 }
                 Ok(Some(run))
             }
             Kind::Nothing | Kind::Run { .. } => Ok(None),
-            Kind::Table => self.place_table(words, sides),
+            Kind::Table => self.place_table(out.words, sides),
         }
     }
 
@@ -67,12 +54,15 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         words: impl Words<'w>,
         sides: [u8; 2],
     ) -> Result<Option<Range<usize>>, Reason> {
-        let textured = self.table.as_mut().and_then(|t| Some((t.texture?, t)));
+        let textured = self
+            .table
+            .as_mut()
+            .and_then(|t| Some((t.layout.texture?, t)));
         let Some((slot, table)) = textured else {
             return Ok(None);
         };
-        let n = usize::from(table.count);
-        let out = self.memory.places.get_mut(..n).ok_or(LACKING)?;
+        let (at, n) = (table.run.at, usize::from(table.run.header.count));
+        let out = self.places.get_mut(..n).ok_or(LACKING)?;
         if table.placed == Some(sides) {
             return Ok(Some(0..n));
         }
@@ -85,10 +75,10 @@ impl<C: Coordinate + Place> Gather<'_, C> {
                     [*u, *v] = texels(raw, sides);
                 }
             }
-            Some(_) if table.at.wrapping_sub(first) >= words.end().wrapping_sub(first) => {
+            Some(_) if at.wrapping_sub(first) >= words.end().wrapping_sub(first) => {
                 return Err(LACKING);
             }
-            _ => slot.column(words, table.at, out, |_, [u, v, _]| texels([u, v], sides)),
+            _ => slot.column(words, at, out, |_, [u, v, _]| texels([u, v], sides)),
         }
         table.placed = Some(sides);
         Ok(Some(0..n))

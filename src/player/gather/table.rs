@@ -1,11 +1,10 @@
 //! A table of vertices, and triangles of it by index.
 
 use super::fill::{End, Rules, fill};
-use super::{Column, Gather, Kind, Out, Table};
+use super::places::RAW;
+use super::{Gather, Kind, Out, Table};
 use crate::geometry::Coordinate;
-use crate::list::{
-    FieldForm, Header, Layout, Lent, Missing, Place, Reason, Run, VertexFormat, Words, colour,
-};
+use crate::list::{FieldForm, Header, Layout, Lent, Missing, Place, Reason, Run, Words, colour};
 
 impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes a table: columns that cannot be used where they lie are unpacked.
@@ -15,93 +14,74 @@ impl<C: Coordinate + Place> Gather<'_, C> {
     #[inline(never)]
     pub(crate) fn table<'w>(
         &mut self,
-        words: impl Words<'w>,
-        format: &VertexFormat,
         run: Run,
-        out: &mut Out<'_, C>,
+        out: &mut Out<'_, C, impl Words<'w>>,
     ) -> Result<(), Reason> {
-        self.flush(words, out);
+        self.flush(out);
         self.reset();
-        let layout = Layout::new(format, run.header);
-        let (at, count) = (run.at, run.header.count);
-        let mut table = Table {
-            at,
-            count,
-            place: Column::Unpacked(layout.place),
-            normal: layout.normal.map_or(Column::None, Column::Unpacked),
-            colour: layout.colour.map_or(Column::None, Column::Unpacked),
-            texture: layout.texture,
-            alphas: false,
-            prsp: run.header.prsp,
-            placed: None,
-            usable: true,
-            lacks_faces: false,
-        };
-        let place = layout.place;
-        if place.form == C::IN_PLACE && place.in_place::<C>(words, at, count).is_some() {
-            table.place = Column::InPlace(place);
-        }
-        let normals = layout.normal.filter(|s| s.form == FieldForm::S16x3);
-        if let Some(slot) = normals.filter(|s| s.in_place::<i16>(words, at, count).is_some()) {
-            table.normal = Column::InPlace(slot);
-        }
-        let colours = layout.colour.filter(|s| s.form == FieldForm::U8x3);
-        if let Some(slot) = colours.filter(|s| s.in_place::<u8>(words, at, count).is_some()) {
-            table.colour = Column::InPlace(slot);
-        }
+        let layout = Layout::new(out.format, run.header);
+        let (words, at, count) = (out.words, run.at, run.header.count);
         let n = usize::from(count);
-        let m = &mut self.memory;
-        let alpha = layout.colour.filter(|slot| slot.has_alpha());
-        let alpha = alpha.filter(|_| !m.alphas.is_empty());
-        table.alphas = alpha.is_some();
-        let short = |c: Column, len: usize| matches!(c, Column::Unpacked(_)) && len < n;
-        if short(table.place, m.positions.len())
-            || short(table.normal, m.normals.len())
-            || short(table.colour, m.colours.len())
-            || table.alphas && m.alphas.len() < n
+        let place = Some(layout.place).filter(|s| s.in_place::<C>(words, at, count).is_none());
+        let normal = layout
+            .normal
+            .filter(|s| s.in_place::<i16>(words, at, count).is_none());
+        let colours = layout
+            .colour
+            .filter(|s| s.in_place::<u8>(words, at, count).is_none());
+        let alpha = self.alpha(&layout);
+        if place.is_some() && self.positions.len() < n
+            || normal.is_some() && self.normals.len() < n
+            || colours.is_some() && self.colours.len() < n
+            || alpha.is_some() && self.alphas.len() < n
         {
-            table.usable = false;
-            self.table = Some(table);
             return Err(Reason::Lent(Lent::Vertices));
         }
-        if let (Column::Unpacked(place), Some(out)) = (table.place, m.positions.get_mut(..n)) {
-            self.base = n;
-            // One that is too fine is not used.
-            place.column(words, at, out, |form, f| C::of(form, f).unwrap_or_default());
+        if C::of(layout.place.form, [0; 3]).is_none() {
+            return Err(Reason::Missing(Missing::FinePlaces));
         }
-        if let (Column::Unpacked(slot), Some(out)) = (table.normal, m.normals.get_mut(..n)) {
+        if let (Some(slot), Some(to)) = (place, self.positions.get_mut(..n)) {
             self.base = n;
-            slot.column(words, at, out, FieldForm::normal);
+            slot.column(words, at, to, |form, f| C::of(form, f).unwrap_or_default());
         }
-        if let (Column::Unpacked(slot), Some(out)) = (table.colour, m.colours.get_mut(..n)) {
+        if let (Some(slot), Some(to)) = (normal, self.normals.get_mut(..n)) {
             self.base = n;
-            slot.column(words, at, out, |_, f| colour(f));
+            slot.column(words, at, to, FieldForm::normal);
         }
-        if let (Some(slot), Some(out)) = (alpha, m.alphas.get_mut(..n)) {
+        if let (Some(slot), Some(to)) = (colours, self.colours.get_mut(..n)) {
             self.base = n;
-            for (n, alpha) in (0..).zip(out.iter_mut()) {
+            slot.column(words, at, to, |_, f| colour(f));
+        }
+        if let (Some(slot), Some(to)) = (alpha, self.alphas.get_mut(..n)) {
+            self.base = n;
+            for (n, alpha) in (0..).zip(to.iter_mut()) {
                 *alpha = slot.alpha(words, at.wrapping_add(n));
             }
         }
+        let mut placed = None;
         // Room for texture places, which are unpacked when something is drawn: in a ring they are gone then.
-        let texture = table.texture.filter(|_| out.textured);
-        if let (Some(slot), Some(places)) = (texture, m.places.get_mut(..n)) {
+        let texture = layout.texture.filter(|_| out.textured);
+        if let (Some(slot), Some(to)) = (texture, self.places.get_mut(..n)) {
             self.base = n;
             if words.room().is_some() {
-                slot.column(words, at, places, |_, [u, v, _]| [u, v]);
-                table.placed = Some(super::places::RAW);
+                slot.column(words, at, to, |_, [u, v, _]| [u, v]);
+                placed = Some(RAW);
             }
         }
-        table.usable = C::of(place.form, [0; 3]).is_some();
-        self.table = Some(table);
-        let fine = Reason::Missing(Missing::FinePlaces);
-        table.usable.then_some(()).ok_or(fine)
+        self.table = Some(Table {
+            run,
+            layout,
+            placed,
+            lacks_faces: false,
+        });
+        Ok(())
     }
 
     /// Whether the table in force has texture places, for which there is no memory.
     pub(crate) fn lacks_table_places(&self) -> bool {
         let lacks = |table: &Table| {
-            table.texture.is_some() && self.memory.places.len() < usize::from(table.count)
+            let count = usize::from(table.run.header.count);
+            table.layout.texture.is_some() && self.places.len() < count
         };
         self.table.as_ref().is_some_and(lacks)
     }
@@ -113,28 +93,26 @@ impl<C: Coordinate + Place> Gather<'_, C> {
     #[inline(never)]
     pub(crate) fn indexed<'w>(
         &mut self,
-        words: impl Words<'w>,
         run: Run,
-        out: &mut Out<'_, C>,
+        out: &mut Out<'_, C, impl Words<'w>>,
     ) -> Result<(), Reason> {
-        self.begin(out);
-        let Some(table) = self.table.filter(|t| t.usable) else {
-            return Err(Reason::Lent(Lent::Vertices));
-        };
+        self.begin(out.block);
+        let (words, table) = (out.words, self.table);
+        let table = table.ok_or(Reason::Lent(Lent::Vertices))?;
         if self.kind != Kind::Table {
-            self.flush(words, out);
+            self.flush(out);
             self.kind = Kind::Table;
         }
         // What goes on stands behind others of the table, or the walker refuses it.
         if run.header.new {
             self.strip.restart();
         }
-        let rules = Rules::of(run.header, table.count);
+        let rules = Rules::of(run.header, table.run.header.count);
         let len = u32::from(run.header.count).div_ceil(4);
         if let (0, Some(slice)) = (run.header.low & Header::WIDE, words.slice(run.at, len)) {
             let bytes: &[u8] = bytemuck::cast_slice(slice);
             let bytes = bytes.get(..run.header.count.into()).unwrap_or_default();
-            return self.faces(words, bytes, &rules, out);
+            return self.faces(bytes, &rules, out);
         }
         let mut some = [0; AT_ONCE];
         let mut from = 0;
@@ -142,7 +120,7 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             let n = usize::from(run.header.count - from).min(AT_ONCE);
             let some = some.get_mut(..n).unwrap_or_default();
             unpack(words, run, from, some);
-            self.faces(words, &*some, &rules, out)?;
+            self.faces(&*some, &rules, out)?;
             from += n as u16;
         }
         Ok(())
@@ -152,19 +130,18 @@ impl<C: Coordinate + Place> Gather<'_, C> {
     #[inline(never)]
     fn faces<'w, I: Copy + Into<u16>>(
         &mut self,
-        words: impl Words<'w>,
         mut rest: &[I],
         rules: &Rules,
-        out: &mut Out<'_, C>,
+        out: &mut Out<'_, C, impl Words<'w>>,
     ) -> Result<(), Reason> {
         loop {
-            let free = self.memory.indices.get_mut(self.indices..);
+            let free = self.indices.get_mut(self.used..);
             let free = free.unwrap_or_default();
             let (whole, _) = free.split_at_mut(free.len() / 3 * 3);
             // Three to a face, of whatever alignment.
             let free = bytemuck::try_cast_slice_mut(whole).unwrap_or_default();
             let filled = fill(rest, free, &mut self.strip, rules);
-            self.indices += 3 * filled.faces;
+            self.used += 3 * filled.faces;
             rest = rest.get(filled.read..).unwrap_or_default();
             match filled.end {
                 End::All => return Ok(()),
@@ -173,8 +150,8 @@ impl<C: Coordinate + Place> Gather<'_, C> {
                     return Err(Reason::Index { index, count });
                 }
                 End::Full => {
-                    self.flush(words, out);
-                    if self.memory.indices.len() < 3 {
+                    self.flush(out);
+                    if self.indices.len() < 3 {
                         return Err(Reason::Lent(Lent::Indices));
                     }
                 }
