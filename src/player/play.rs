@@ -324,10 +324,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             events,
         };
         if stage.player.walker.is_running() {
-            if let Err(reason) = stage.player.fits() {
-                stage.notice(Event::Malformed, 0);
-                return Err(stage.player.unfit(reason));
-            }
+            let ready = stage.player.ready();
+            ready.map_err(|error| stage.malformed(error))?;
         }
         loop {
             let player = &mut *stage.player;
@@ -339,10 +337,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             }
             let player = &mut *stage.player;
             if player.unchecked && player.walker.is_running() {
-                if let Err(error) = player.check(words, screen, *budget) {
-                    stage.notice(Event::Malformed, 0);
-                    return Err(error);
-                }
+                let checked = player.check(words, screen, *budget);
+                checked.map_err(|error| stage.malformed(error))?;
             }
             match stage.step(budget) {
                 Ok(None) => {}
@@ -350,8 +346,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
                 Err(error) => {
                     // What stands before it was drawn already, or is now.
                     let _ = stage.flush();
-                    stage.notice(Event::Malformed, 0);
-                    return Err(error);
+                    return Err(stage.malformed(error));
                 }
             }
         }
@@ -368,7 +363,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         screen: Screen,
         mut budget: crate::list::Budget,
     ) -> Result<Halt, ListError> {
-        self.fits().map_err(|reason| self.unfit(reason))?;
+        self.ready()?;
         let begin = self.walker.clone();
         self.walker.command(ListCommand::Start(begin.position()));
         self.reset();
@@ -417,6 +412,10 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         }
     }
 
+    fn ready(&mut self) -> Result<(), ListError> {
+        self.fits().map_err(|reason| self.unfit(reason))
+    }
+
     /// An error that no block has made.
     #[cold]
     fn unfit(&mut self, reason: Reason) -> ListError {
@@ -463,6 +462,13 @@ impl<'t, L: Look, C: Coordinate + Place, W: Words<'t>> Stage<'_, '_, '_, 't, L, 
             }
         }
         Ok(None)
+    }
+
+    /// Tells of an error, which is handed through.
+    #[cold]
+    fn malformed(&mut self, error: ListError) -> ListError {
+        self.notice(Event::Malformed, 0);
+        error
     }
 
     #[cold]

@@ -167,24 +167,13 @@ const AT_ONCE: usize = 48;
 #[inline(never)]
 fn unpack<'w>(words: impl Words<'w>, run: Run, from: u16, some: &mut [u16]) {
     let wide = run.header.low & Header::WIDE != 0;
-    let mut at = (run.at).wrapping_add(u32::from(from) / if wide { 2 } else { 4 });
-    let mut next = || {
-        let word = words.word(at);
-        at = at.wrapping_add(1);
-        word
-    };
-    if wide {
-        for pair in some.chunks_mut(2) {
-            let word = next();
-            for (slot, half) in pair.iter_mut().zip([word as u16, (word >> 16) as u16]) {
-                *slot = half;
-            }
-        }
-        return;
-    }
-    for four in some.chunks_mut(4) {
-        for (slot, byte) in four.iter_mut().zip(next().to_le_bytes()) {
-            *slot = byte.into();
+    let (a_word, bits) = if wide { (2, 16) } else { (4, 8) };
+    let at = (run.at).wrapping_add(u32::from(from) / a_word);
+    for (n, part) in (0..).zip(some.chunks_mut(a_word as usize)) {
+        let mut word = words.word(at.wrapping_add(n));
+        for slot in part {
+            *slot = (word & ((1 << bits) - 1)) as u16;
+            word >>= bits;
         }
     }
 }
