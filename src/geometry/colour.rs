@@ -26,24 +26,14 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// For `steps` above 0 in red, green and blue, each 1 to 255.
+    /// For `steps` above 0 in red, green and blue, each 1 to 256.
     #[must_use]
     pub const fn new(steps: [u16; 3]) -> Self {
-        let (mut full, mut fraction) = ([0; 3], [0; 3]);
+        let (mut full, mut fraction, mut factor) = ([0; 3], [0; 3], [0; 3]);
         let mut i = 0;
         while i < 3 {
             fraction[i] = FIELD_BITS[i] - 1 - steps[i].ilog2();
             full[i] = (steps[i] as u32) << fraction[i];
-            i += 1;
-        }
-        Self::of(full, fraction)
-    }
-
-    /// Of fields of level 255, and fraction bits.
-    const fn of(full: [u32; 3], fraction: [u32; 3]) -> Self {
-        let mut factor = full;
-        let mut i = 0;
-        while i < 3 {
             factor[i] = ((full[i] << 8) + 127) / 255;
             i += 1;
         }
@@ -56,7 +46,7 @@ impl Scale {
 
     /// For shades of texels: full light is 1,024, 1,024 and 512 of a field, and a margin of 2, 2 and 1 stays to either
     /// end.
-    pub(crate) const SHADE: Self = Self::of([1024, 1024, 512], [2, 2, 1]);
+    pub(crate) const SHADE: Self = Self::new([256; 3]);
 
     /// The word of white in full light.
     pub(crate) const fn full_word(&self) -> u32 {
@@ -82,17 +72,14 @@ pub struct Tint {
 impl Tint {
     /// From 8-bit levels.
     pub(crate) const fn new(rgb: [u8; 3], scale: &Scale) -> Self {
-        let mut tint = Self {
-            field: [0; 3],
-            half: [0; 3],
-        };
+        let (mut field, mut half) = ([0; 3], [0; 3]);
         let mut i = 0;
         while i < 3 {
-            tint.field[i] = (rgb[i] as u32 * scale.factor[i] + (1 << 4)) >> 5;
-            tint.half[i] = (((1 << scale.fraction[i]) >> 1) << 18) + (1 << 17);
+            field[i] = (rgb[i] as u32 * scale.factor[i] + (1 << 4)) >> 5;
+            half[i] = (((1 << scale.fraction[i]) >> 1) << 18) + (1 << 17);
             i += 1;
         }
-        tint
+        Self { field, half }
     }
 
     /// In `light`, 1 being 2^15; within 1/8 of a field's unit before rounding.
