@@ -47,15 +47,6 @@ pub struct Compressed<'t> {
     key: Option<u16>,
 }
 
-/// What a block says.
-#[derive(Default)]
-struct Block {
-    /// Numbers of 5, 6 and 5 bits.
-    ends: [u16; 2],
-    /// Two bits a texel, those of the first one lowest.
-    indices: u32,
-}
-
 impl<'t> Compressed<'t> {
     /// Blocks in rows from the top, those of a texture that is no block wide or high whole; what is lent beyond them is
     /// not read. `word` makes words of the panel of numbers: [`u16::to_be`] for `Rgb565Be`, [`u16::to_le`] for
@@ -115,21 +106,20 @@ impl<'t> Compressed<'t> {
         texture
     }
 
-    /// A block by its number.
+    /// A block by its number: two numbers of 5, 6 and 5 bits, one above the other, and its indices, two bits a texel, those
+    /// of the first one lowest.
     #[inline(always)]
-    fn block(&self, number: u32) -> Block {
+    fn block(&self, number: u32) -> [u32; 2] {
         let bytes = self.blocks.get(number as usize * BYTES..);
         let bytes = bytes.and_then(|bytes| bytes.first_chunk());
         let [a, b, c, d, e, f, g, h] = *bytes.unwrap_or(&[0; BYTES]);
-        Block {
-            ends: [u16::from_le_bytes([a, b]), u16::from_le_bytes([c, d])],
-            indices: u32::from_le_bytes([e, f, g, h]),
-        }
+        [[a, b, c, d], [e, f, g, h]].map(u32::from_le_bytes)
     }
 
     /// The word of an index.
     #[inline(always)]
-    fn shown(&self, [first, second]: [u16; 2], index: u32) -> u16 {
+    fn shown(&self, ends: u32, index: u32) -> u16 {
+        let (first, second) = (ends as u16, (ends >> 16) as u16);
         let number = match (index, first > second) {
             (0, _) => first,
             (1, _) => second,
@@ -156,7 +146,7 @@ impl<'t> Compressed<'t> {
     /// Decodes the block of an index into the words of a cache, whose blocks are `layout`; the texel of that index.
     #[inline(never)]
     pub(super) fn load(&self, index: u32, layout: Blocked, upper: u32, words: &[CacheWord]) -> u16 {
-        let Block { ends, indices } = self.block(index >> layout.log_texels());
+        let [ends, indices] = self.block(index >> layout.log_texels());
         let colours = [0, 1, 2, 3].map(|index| self.shown(ends, index));
         let mut down = indices;
         for row in words.chunks(layout.width() as usize) {
@@ -175,23 +165,23 @@ impl<'t> Compressed<'t> {
 impl Texels for Compressed<'_> {
     fn texel(&self, column: u16, row: u16) -> u16 {
         let [number, right] = self.place([column, row]);
-        let Block { ends, indices } = self.block(number);
+        let [ends, indices] = self.block(number);
         self.shown(ends, indices >> right & 3)
     }
 
     /// A block is read once for all texels in succession that are its, and each of its colours is made once.
     fn fetch(&self, run: &mut [u16], way: TexelWay) {
-        let (mut number, mut block) = (u32::MAX, Block::default());
+        let (mut number, mut block) = (u32::MAX, [0; 2]);
         let (mut made, mut colours) = (0, [0; 4]);
         for (pixel, texel) in run.iter_mut().zip(way) {
             let [here, right] = self.place(texel);
             if here != number {
                 (number, block, made) = (here, self.block(here), 0);
             }
-            let index = block.indices >> right & 3;
+            let index = block[1] >> right & 3;
             if made >> index & 1 == 0 {
                 made |= 1 << index;
-                colours[index as usize] = self.shown(block.ends, index);
+                colours[index as usize] = self.shown(block[0], index);
             }
             *pixel = colours[index as usize];
         }
