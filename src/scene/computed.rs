@@ -50,10 +50,8 @@ impl core::fmt::Debug for dyn Texels + '_ {
 /// the sides is within them, as the texture's wrap says.
 #[derive(Clone, Copy, Debug)]
 pub struct TexelWay {
-    /// To the right: the place of the next pixel and the step from there, in 2^-32 of the width.
-    u: [u32; 2],
-    /// Down, in 2^-32 of the height.
-    v: [u32; 2],
+    /// To the right and down: the place of the next pixel and the step from there, in 2^-32 of a side.
+    ways: [[u32; 2]; 2],
     /// Fraction bits of columns and of rows.
     fraction: [u8; 2],
 }
@@ -68,8 +66,10 @@ impl TexelWay {
             log => (way, 32 - log as u8),
         };
         let ((u, right), (v, down)) = (side(u, log_width), side(v, log_height));
-        let fraction = [right, down];
-        Self { u, v, fraction }
+        Self {
+            ways: [u, v],
+            fraction: [right, down],
+        }
     }
 }
 
@@ -78,13 +78,10 @@ impl Iterator for TexelWay {
 
     #[inline(always)]
     fn next(&mut self) -> Option<[u16; 2]> {
-        let texel = |way: [u32; 2], fraction: u8| (way[0] >> (fraction & 31)) as u16;
-        let place = [
-            texel(self.u, self.fraction[0]),
-            texel(self.v, self.fraction[1]),
-        ];
-        self.u[0] = self.u[0].wrapping_add(self.u[1]);
-        self.v[0] = self.v[0].wrapping_add(self.v[1]);
+        let place = [0, 1].map(|i| (self.ways[i][0] >> (self.fraction[i] & 31)) as u16);
+        for [at, step] in &mut self.ways {
+            *at = at.wrapping_add(*step);
+        }
         Some(place)
     }
 }
