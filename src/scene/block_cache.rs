@@ -245,11 +245,10 @@ impl<'m> BlockCache<'m> {
         if columns.is_empty() || rows.is_empty() {
             return Ok(loaded);
         }
-        let columns = columns.start / width..columns.end.div_ceil(width);
-        let rows = rows.start / height..rows.end.div_ceil(height);
-        for row in rows {
-            for column in columns.clone() {
-                let first = self.block.place(column * width, row * height, across);
+        let (left, top) = (columns.start & !(width - 1), rows.start & !(height - 1));
+        for row in (top..rows.end).step_by(height as usize) {
+            for column in (left..columns.end).step_by(width as usize) {
+                let first = self.block.place(column, row, across);
                 if self.held(first, self.upper(first)).is_none() {
                     if loaded == most {
                         return Ok(loaded);
@@ -308,15 +307,11 @@ impl<'m> BlockCache<'m> {
                 slow.get(index as usize).copied().unwrap_or_default()
             }
             Slow::Stored(form) => {
-                let mut own = 0;
+                let texel = |at: u32| form.get(at as usize).unwrap_or_default();
                 for (at, word) in (first..).zip(words) {
-                    let texel = form.get(at as usize).unwrap_or_default();
-                    word.set(upper, texel);
-                    if at == index {
-                        own = texel;
-                    }
+                    word.set(upper, texel(at));
                 }
-                own
+                texel(index)
             }
         }
     }
