@@ -220,8 +220,7 @@ impl Mapping {
     #[must_use]
     pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
         let places = corners.map(|c| TexturePlace::new(c.texel, [0; 2]));
-        if let Some(plane) = Near::of(corners, &places).word_plane(texture, texture.spare(), budget)
-        {
+        if let Some(plane) = Near::of(corners, &places).word_plane(texture, texture.spare, budget) {
             let mut mapping = Self::EMPTY;
             mapping.planes[0] = plane;
             return Some(mapping);
@@ -274,7 +273,7 @@ impl Mapping {
         budget: Budget,
         words: Words,
     ) {
-        match texture.sampling() {
+        match texture.sampling {
             None => self.draw_any(run, place, texture, budget),
             // Places in one word serve all levels.
             Some(_) if self.method == Method::Word => {

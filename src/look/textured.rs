@@ -178,7 +178,7 @@ impl<F: Texel> Textured<F> {
         if let Some((texture, budget)) = state.and_then(DrawState::texture) {
             let places = triangle.textures();
             let near = Near::new(triangle.vertex, &places);
-            if let Some(plane) = near.word_plane(texture, texture.spare(), budget) {
+            if let Some(plane) = near.word_plane(texture, texture.spare, budget) {
                 planes.mapping.method = Method::Word;
                 planes.mapping.planes[0] = plane;
                 planes.mapped = true;
@@ -202,7 +202,7 @@ impl<F: Texel> Textured<F> {
         budget: Budget,
         planes: &mut Planes,
     ) -> bool {
-        let word = texture.sampling().and_then(|sampling| sampling.word);
+        let word = texture.sampling.and_then(|sampling| sampling.word);
         let leveled =
             word.and_then(|of| of(triangle.vertex, &triangle.textures(), texture, budget));
         if let Some([at, right, below, level]) = leveled {

@@ -77,22 +77,21 @@ impl<'t> Square<'t> {
     }
 }
 
-impl<'t> Form<'t> {
-    /// The rows of a square of words of `2^log` texels a side, if that has loops of its own.
+impl<'t> Texture<'t> {
+    /// The rows, if it is one of the squares that have loops of their own.
     #[inline(always)]
-    pub(super) fn square(self, log: u32) -> Option<Square<'t>> {
-        let Form::Words(texels) = self else {
-            return None;
-        };
-        match log {
-            5 => rows(texels).map(Square::Side32),
-            6 => rows(texels).map(Square::Side64),
-            7 => rows(texels).map(Square::Side128),
-            8 => rows(texels).map(Square::Side256),
+    pub(crate) fn square(&self) -> Option<Square<'t>> {
+        match (self.form, self.square) {
+            (Form::Words(texels), 5) => rows(texels).map(Square::Side32),
+            (Form::Words(texels), 6) => rows(texels).map(Square::Side64),
+            (Form::Words(texels), 7) => rows(texels).map(Square::Side128),
+            (Form::Words(texels), 8) => rows(texels).map(Square::Side256),
             _ => None,
         }
     }
+}
 
+impl Form<'_> {
     /// A texel by its index.
     #[inline(always)]
     pub(crate) fn get(&self, i: usize) -> Option<u16> {

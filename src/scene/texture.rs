@@ -113,12 +113,13 @@ pub struct Texture<'t> {
     pub(crate) form: Form<'t>,
     pub(super) sides: Sides,
     /// The power of two of both sides of what is [`Bent`]; else 0.
-    square: u8,
-    /// [`Sides::spare`], but none where texels are sampled.
-    pub(super) spare: u8,
+    pub(super) square: u8,
+    /// Spare bits of places in one word, where that is how places are found; none where texels are sampled.
+    pub(crate) spare: u8,
     pub(super) wrap: Wrap,
     pub(super) key: Option<u16>,
-    pub(super) sampling: Option<Sampling>,
+    /// How its texels are taken, if not by the nearest one of this size.
+    pub(crate) sampling: Option<Sampling>,
     /// What its texels say of themselves beside their colour: of the same form, sides and levels.
     pub(super) mask: Option<&'t Texture<'t>>,
     /// Each half of the one before.
@@ -134,17 +135,14 @@ pub(super) struct Sides {
 
 impl Sides {
     pub(super) const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
-        if width.is_power_of_two()
-            && height.is_power_of_two()
-            && width <= Texture::MAX_SIDE
-            && height <= Texture::MAX_SIDE
-        {
-            return Ok(Self {
-                log_width: width.trailing_zeros() as u8,
-                log_height: height.trailing_zeros() as u8,
-            });
+        let are_powers = width.is_power_of_two() && height.is_power_of_two();
+        if !are_powers || width > Texture::MAX_SIDE || height > Texture::MAX_SIDE {
+            return Err(TextureError::Side { width, height });
         }
-        Err(TextureError::Side { width, height })
+        Ok(Self {
+            log_width: width.trailing_zeros() as u8,
+            log_height: height.trailing_zeros() as u8,
+        })
     }
 
     pub(super) const fn texels(self) -> usize {
@@ -349,12 +347,6 @@ impl<'t> Texture<'t> {
         })
     }
 
-    /// How its texels are taken, if not by the nearest one of this size.
-    #[inline(always)]
-    pub(crate) const fn sampling(&self) -> Option<Sampling> {
-        self.sampling
-    }
-
     /// How many levels there are below it.
     pub(crate) const fn levels(&self) -> usize {
         self.coarser.len()
@@ -415,13 +407,7 @@ impl<'t> Texture<'t> {
         self.sides.log_height as u32
     }
 
-    /// Spare bits of places in one word, where that is how places are found; else none.
-    #[inline(always)]
-    pub(crate) const fn spare(&self) -> u8 {
-        self.spare
-    }
-
-    /// The same of a texture that has levels of detail.
+    /// [`spare`](Self::spare) of a texture that has levels of detail.
     pub(crate) const fn spare_of_sides(&self) -> u8 {
         self.sides.spare()
     }
@@ -441,10 +427,7 @@ impl<'t> Texture<'t> {
         if self.repeated() == 0 {
             return None;
         }
-        match self.square() {
-            Some(square) => Some(Bent::Words(square)),
-            None => Some(Bent::Indices(self)),
-        }
+        Some(self.square().map_or(Bent::Indices(self), Bent::Words))
     }
 
     /// Whether its texels are words, of which the nearest is taken.
@@ -456,16 +439,7 @@ impl<'t> Texture<'t> {
     /// The rows, if it is one of the squares that have loops of their own, and the nearest texel is taken.
     #[inline(always)]
     pub(crate) fn plain_square(&self) -> Option<Square<'t>> {
-        match self.sampling {
-            None => self.square(),
-            Some(_) => None,
-        }
-    }
-
-    /// The rows, if it is one of the squares that have loops of their own.
-    #[inline(always)]
-    pub(crate) fn square(&self) -> Option<Square<'t>> {
-        self.form.square(self.square.into())
+        self.square().filter(|_| self.sampling.is_none())
     }
 }
 
