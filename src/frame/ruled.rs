@@ -249,7 +249,7 @@ fn find_alphas<L: Look>(
     }
     for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
         rolled();
-        *alpha = PixelAlpha::new(ink.surface.at(column), MaskTexel::of_word(texel));
+        *alpha = PixelAlpha::new(ink.surface.at(column), MaskTexel(texel));
     }
 }
 

@@ -13,7 +13,7 @@ use crate::num::{mul_high_unsigned, rolled};
 /// Masks are textures whose words are such [`word`](MaskTexel::word)s, or have a palette of them; see
 /// [`Texture::masked`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MaskTexel(u16);
+pub struct MaskTexel(pub(crate) u16);
 
 impl MaskTexel {
     /// Opaque, dithered where the call is, and blended as it is.
@@ -44,10 +44,6 @@ impl MaskTexel {
     #[must_use]
     pub const fn word(self) -> u16 {
         self.0
-    }
-
-    pub(crate) const fn of_word(word: u16) -> Self {
-        Self(word)
     }
 
     pub(crate) const fn is_undithered(self) -> bool {

@@ -115,9 +115,7 @@ impl Blend {
     #[inline(always)]
     pub(crate) fn by(self, alpha: PixelAlpha) -> Self {
         let mode = match self.mode {
-            BlendMode::Filter(own) | BlendMode::Add(own) | BlendMode::Subtract(own)
-                if alpha.texel().is_added() =>
-            {
+            BlendMode::Filter(own) | BlendMode::Subtract(own) if alpha.texel().is_added() => {
                 BlendMode::Add(alpha.times(own))
             }
             BlendMode::Half | BlendMode::Factors { .. } if alpha.texel().is_added() => {
