@@ -153,11 +153,7 @@ impl Assembled {
 }
 
 /// What a renderer's cache has to agree with: where triangles lie, and how often they have changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Content {
-    place: usize,
-    changes: u32,
-}
+pub(crate) type Content = (usize, u32);
 
 /// The widest and the highest picture, in pixels; larger ones are parts, each a scene by a [shifted](Camera::shifted)
 /// camera.
@@ -294,10 +290,8 @@ impl<'m, 't, L> Scene<'m, 't, L> {
 
     /// What a renderer that goes on from line to line has to find again.
     pub(crate) fn content(&self) -> Content {
-        Content {
-            place: self.objects.as_slice().as_ptr().addr(),
-            changes: self.generation,
-        }
+        let place = self.objects.as_slice().as_ptr().addr();
+        (place, self.generation)
     }
 
     /// The first line from `line` on that a triangle begins on; the line after the last where none does.
