@@ -42,12 +42,11 @@ pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
 
 /// Whether all slices agree and all indices exist.
 pub(crate) fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
-    check_known(mesh, usize::MAX)
+    check_known(mesh, false)
 }
 
-/// The same where those indices exist that are known to be below a number of vertices that are
-/// there.
-pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
+/// The same, of indices only where these are not looked at later.
+pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, are_late: bool) -> Result<(), MeshError> {
     let count = mesh.positions.len();
     let fits = |len: usize| len == 0 || len == count;
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
@@ -62,7 +61,7 @@ pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), Mes
         }
         Faces::QuadStrip(strip, _) => (strip, 2, 2),
     };
-    if below <= count || are_below(indices, count) {
+    if are_late || are_below(indices, count) {
         return Ok(());
     }
     match indices.iter().position(|&i| usize::from(i) >= count) {
@@ -89,15 +88,12 @@ fn are_below(indices: &[u16], count: usize) -> bool {
 pub(crate) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
     let mut quad = |face: u32, q: [u16; 4], split| {
         let [a, b, c, d] = q;
-        match split {
-            QuadSplit::Corner0To2 => {
-                f(face, [a, b, c], a);
-                f(face, [a, c, d], a);
-            }
-            QuadSplit::Corner1To3 => {
-                f(face, [a, b, d], a);
-                f(face, [b, c, d], a);
-            }
+        let triangles = match split {
+            QuadSplit::Corner0To2 => [[a, b, c], [a, c, d]],
+            QuadSplit::Corner1To3 => [[a, b, d], [b, c, d]],
+        };
+        for corners in triangles {
+            f(face, corners, a);
         }
     };
     match faces {

@@ -20,7 +20,7 @@
 
 use super::colour::{Colour, Scale, Tint};
 use super::light::{direction, level_of};
-use super::transform::Affine;
+use super::transform::{Affine, unit_q30};
 use crate::num::{I2F14, U1F15, inverse_root, leading_zeros, mul_16, mul_high, mul_high_unsigned};
 
 /// A light from infinitely far, with a colour.
@@ -130,9 +130,12 @@ impl<'a> Lighting<'a> {
         // Twice as far as the eye or any vertex, so that their difference fits.
         let power = eye.exponent.max(1) + 1;
         LampsInModel {
-            lamps: Lamps::new(self, |l| model.direction_to_model_q30(l)),
+            lamps: Lamps::new(self, |l| {
+                unit_q30(model.transposed_times(l)).unwrap_or_default()
+            }),
             eye: [0, 1, 2].map(|i| eye.scaled(i, 30 - power) as i32),
             power: power.min(31) as u32,
+            lit: LampsInModel::lit,
         }
     }
 }
@@ -396,13 +399,15 @@ fn power(base: u32, exponent: u16) -> u32 {
 }
 
 /// Lights times a material, and the eye, in model space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct LampsInModel {
     lamps: Lamps,
     /// The eye in units of 2^(power - 30), below 2^30.
     eye: [i32; 3],
     /// At least 2.
     power: u32,
+    /// A colour in these lights, with a normal at a place in Q1.30. Who makes no such lights has no code for it.
+    pub(crate) lit: fn(&Self, &Tint, &Scale, [i16; 3], [i32; 3]) -> Colour,
 }
 
 impl LampsInModel {

@@ -58,17 +58,9 @@ pub struct Mesh<'a, C = i16> {
     pub faces: Faces<'a>,
 }
 
-impl<C: Coordinate> Mesh<'_, C> {
-    /// [`place_of`] a vertex of the mesh.
-    #[inline(always)]
-    pub(crate) fn place(&self, vertex: usize) -> [i32; 3] {
-        place_of(self.positions, vertex)
-    }
-}
-
 /// Where a vertex lies, in Q1.30; the middle, where there is none.
 #[inline(always)]
-pub(super) fn place_of<C: Coordinate>(positions: &[[C; 3]], i: usize) -> [i32; 3] {
+pub(crate) fn place_of<C: Coordinate>(positions: &[[C; 3]], i: usize) -> [i32; 3] {
     positions.get(i).map_or([0; 3], |at| at.map(C::to_q30))
 }
 

@@ -27,6 +27,7 @@ pub(crate) use faces::{check, check_known as check_mesh, each_triangle, face_nor
 pub use light::Light;
 pub(crate) use lighting::LampsInModel;
 pub use lighting::{DirectionalLight, Lighting, Material};
+pub(crate) use mesh::place_of;
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
 pub(crate) use meshlet::Eye;
 pub use meshlet::{CutError, Meshlet, Meshlets};

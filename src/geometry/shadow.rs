@@ -13,7 +13,7 @@
 //! shadow.
 
 use super::faces::{each_triangle, wide_normal};
-use super::mesh::{Coordinate, Mesh};
+use super::mesh::{Coordinate, Mesh, place_of};
 use super::transform::Affine;
 use crate::num::I2F14;
 
@@ -39,7 +39,7 @@ pub struct ShadowEdge {
 
 impl ShadowEdge {
     /// From where to where the face goes.
-    const fn directed(self) -> [u16; 2] {
+    pub(crate) const fn directed(self) -> [u16; 2] {
         let [low, high] = self.ends;
         if self.rises { [low, high] } else { [high, low] }
     }
@@ -82,17 +82,10 @@ impl core::fmt::Display for ShadowRoom {
 #[derive(Debug)]
 pub(crate) struct Sides<'m> {
     /// The silhouette, by the first corner of an edge.
-    edges: &'m [ShadowEdge],
+    pub(crate) edges: &'m [ShadowEdge],
     /// Two of each edge's first corner: that itself, and the one it casts its shadow to.
     pub(crate) positions: &'m [[i32; 3]],
     pub(crate) faces: &'m [[u16; 3]],
-}
-
-impl Sides<'_> {
-    /// The corners of the mesh that the even positions are, by vertex.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = u16> + '_ {
-        self.edges.iter().map(|edge| edge.directed()[0])
-    }
 }
 
 /// How a mesh is drawn out: model space to that of the volume.
@@ -142,14 +135,12 @@ impl Extrusion {
     pub(crate) fn each_lit<C: Coordinate>(
         &self,
         mesh: &Mesh<'_, C>,
-        mut f: impl FnMut([u16; 3], [[C; 3]; 3]),
+        mut f: impl FnMut([u16; 3], [[i32; 3]; 3]),
     ) {
         each_triangle(mesh.faces, |_, corners, _| {
-            let at = |i: usize| mesh.positions.get(usize::from(corners[i])).copied();
-            if let (Some(a), Some(b), Some(c)) = (at(0), at(1), at(2)) {
-                if self.is_lit([a, b, c].map(|p| p.map(C::to_q30))) {
-                    f(corners, [a, b, c]);
-                }
+            let places = corners.map(|i| place_of(mesh.positions, i.into()));
+            if self.is_lit(places) {
+                f(corners, places);
             }
         });
     }
@@ -173,9 +164,7 @@ impl Extrusion {
         edges.sort_unstable_by_key(|edge| edge.directed());
         for (i, edge) in edges.iter().enumerate() {
             let [a, b] = edge.directed();
-            let Some(&at) = mesh.positions.get(usize::from(a)) else {
-                continue;
-            };
+            let at = place_of(mesh.positions, a.into());
             let next = edges.partition_point(|other| other.directed()[0] < b);
             let (a, b) = (2 * i as u16, 2 * next as u16);
             positions[2 * i..2 * i + 2].copy_from_slice(&self.ends(at));

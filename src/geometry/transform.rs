@@ -167,13 +167,8 @@ impl Affine {
         unit(self.transposed_times(direction))
     }
 
-    /// The same in Q1.30, 2^-28 off at most; zero where there is no direction.
-    pub(super) fn direction_to_model_q30(&self, direction: [I2F14; 3]) -> [i32; 3] {
-        unit_q30(self.transposed_times(direction)).unwrap_or_default()
-    }
-
     /// The transpose of the linear part times a direction, of any length below 2^32.
-    fn transposed_times(&self, direction: [I2F14; 3]) -> [i64; 3] {
+    pub(super) fn transposed_times(&self, direction: [I2F14; 3]) -> [i64; 3] {
         let v = direction.map(|c| i32::from(c.to_bits()));
         self.dots_with_columns(v).map(|c| c >> 14)
     }

@@ -5,15 +5,12 @@
 
 use super::alpha::{self, Alphas};
 use super::check::{check_alphas, check_draw};
-use super::lights::Lamps;
-use super::pass::{
-    Normals, Pass, WordOfNormal, colour_all, colour_of, light_all, light_each, top_first,
-};
+use super::pass::{Pass, WordOfNormal, colour_all, light_all, light_each, top_first};
 use super::project::{View, project_all, project_textured};
-use super::texgen::{Generated, TexGen, project_generated};
+use super::texgen::{TexGen, project_generated};
 use super::{
     Application, Draw, DrawError, DrawState, Full, Master, NONE, ORIGIN, Object, Scene, Shading,
-    TexturePlace, Vertex, next_change,
+    TexturePlace, Vertex, first_line, next_change,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use crate::num::rolled;
@@ -55,9 +52,12 @@ impl<'t, L> Scene<'_, 't, L> {
         let is_volume = draw.is_volume();
         let file = |scene: &mut Self, pass: &mut Pass<'_>| {
             scene.share(mesh, moved, pass);
-            match is_volume {
-                true => scene.file_volume(mesh, pass),
-                false => scene.file(is_flat, mesh, pass),
+            match (is_volume, is_flat) {
+                (true, _) => scene.file_volume(mesh, pass),
+                (_, true) => scene.file_flat(mesh, pass),
+                _ => scene.file(mesh, pass, |scene, pass| {
+                    scene.file_faces(mesh, 0..usize::MAX, pass)
+                }),
             }
         };
         self.assemble_by(draw, textured, word_of, triangles(mesh.faces), file)
@@ -98,53 +98,49 @@ impl<'t, L> Scene<'_, 't, L> {
         // Texels that are seen as they are have no light.
         state.lamps = state.lamps.filter(|_| !is_replaced);
         let word_of = word_of.filter(|_| state.lamps.is_some());
+        let is_blended = state.blend.is_some_and(|blend| blend.is_translucent());
         if self.draws.push(state).is_none() {
             return Err(self.lose_call(submitted));
         }
         self.generation = next_change();
         let is_plain = self.is_plain(draw);
         let colour = if is_replaced { [255; 3] } else { draw.colour };
-        let tint = Tint::new(colour, &self.scale);
-        let (model, view) = (&draw.model, &camera.view);
-        let lamps = draw.lights.map(|lights| Lamps {
-            lights,
-            in_model: lights.to_model(model, view),
-        });
+        let (model, seen) = (&draw.model, &camera.view);
+        let lamps = draw.lights.map(|lights| lights.to_model(model, seen));
         let light = draw.light.filter(|_| lamps.is_none());
         let light = light.map(|light| light.in_model(model));
         let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
         let has_one = is_plain || !is_lit && draw.mesh.colours.is_empty();
-        let generated = draw.texgen.zip(draw.texture);
-        let generated = generated.map(|(TexGen(rule), skin)| Generated {
-            by: rule(&model.then(view), skin.texture),
-            normals: draw.mesh.normals,
-        });
-        let seen = View::new(camera, self.screen, model);
-        let mut pass = Pass::new(seen, tint, has_one, self.vertices.len());
-        pass.light = light;
-        pass.lamps = lamps.as_ref();
-        pass.normals = word_of.map(|word| Normals {
-            turn: model.then(view),
-            word,
-        });
-        pass.cull = draw.cull;
-        pass.texels = draw.texture.map(|skin| skin.places);
-        pass.generated = generated.as_ref();
-        if state.takes_alphas() {
-            pass.alphas = draw.alphas;
-        }
+        let generated = draw
+            .texgen
+            .zip(draw.texture)
+            .map(|(TexGen(rule), skin)| rule(draw.mesh.normals, &model.then(seen), skin.texture));
+        let view = View::new(camera, self.screen, model);
+        let (scale, tint) = (self.scale, Tint::new(colour, &self.scale));
+        let mut pass = Pass {
+            view,
+            light,
+            lamps: lamps.as_ref(),
+            normals: word_of.map(|word| (model.then(seen), word)),
+            scale,
+            tint,
+            one: has_one.then(|| tint.lit(1 << 15).word()),
+            cull: draw.cull,
+            texels: draw.texture.map(|skin| skin.places),
+            generated: generated.as_ref(),
+            alphas: if is_blended { draw.alphas } else { &[] },
+            base: self.vertices.len(),
+            shared: 0,
+            within: false,
+            culled: 0,
+            clipped: 0,
+            lost: 0,
+            first_lost: None,
+        };
         file(self, &mut pass)?;
-        if let (false, Some(kept)) = (pass.alphas.is_empty(), self.draws.last_mut()) {
-            kept.alphas = Some(Alphas::new(pass.base, pass.shared));
-        }
-        if state.texture().is_some() && pass.may_stretch() {
-            self.count_untextured(state.first.into());
-        }
-        self.has_values |= state.has_values();
         self.has_shadows |= draw.shadow.is_some();
-        self.is_ruled |= state.rules();
-        self.is_ranked |= state.priority != 0;
-        self.count(&pass, submitted)
+        self.assembled.triangles += submitted;
+        self.finish(&state, &pass)
     }
 
     /// Counts the triangles of a draw call whose state found no room.
@@ -160,57 +156,49 @@ impl<'t, L> Scene<'_, 't, L> {
         }
     }
 
-    /// Counts the triangles of a draw call; an error where some found no room.
-    pub(super) fn count(&mut self, pass: &Pass<'_>, submitted: u32) -> Result<(), DrawError> {
-        self.assembled.triangles += submitted;
+    /// Keeps and counts what was filed of a draw call; an error where some triangles found no room.
+    #[inline(always)]
+    fn finish(&mut self, state: &DrawState<'_>, pass: &Pass<'_>) -> Result<(), DrawError> {
+        if self.objects.len() == usize::from(state.first) {
+            self.vertices.truncate(pass.base);
+        }
+        if let (false, Some(kept)) = (pass.alphas.is_empty(), self.draws.last_mut()) {
+            kept.alphas = Some(Alphas::new(pass.base, pass.shared));
+        }
+        if state.texture.is_some() && pass.may_stretch() {
+            self.count_untextured(state.first.into());
+        }
+        self.has_values |= state.has_values();
+        self.is_ruled |= state.rules();
+        self.is_ranked |= state.priority != 0;
         self.assembled.culled += pass.culled;
         self.assembled.clipped += pass.clipped;
-        self.assembled.dropped += pass.lost.triangles;
-        match pass.lost.first {
+        self.assembled.dropped += pass.lost;
+        match pass.first_lost {
             None => Ok(()),
             Some((memory, first_face)) => Err(DrawError::Full {
                 memory,
-                triangles: pass.lost.triangles,
+                triangles: pass.lost,
                 first_face,
             }),
         }
     }
 
-    /// Files the faces of a mesh, and lights its vertices.
+    /// Files faces of a mesh by `file`, and lights their vertices; or takes all back, where the mesh turned out to
+    /// contradict itself.
     #[inline(never)]
     pub(super) fn file<C: Coordinate>(
         &mut self,
-        is_flat: bool,
         mesh: &Mesh<'_, C>,
         pass: &mut Pass<'_>,
+        file: impl FnOnce(&mut Self, &mut Pass<'_>) -> Result<(), MeshError>,
     ) -> Result<(), DrawError> {
         let before = self.objects.len();
-        if !is_flat {
-            let filed = self.file_faces(mesh, 0..usize::MAX, pass);
-            return self.close(filed, before, mesh, pass);
-        }
-        self.file_flat(mesh, pass);
-        if self.objects.len() == before {
-            self.vertices.truncate(pass.base);
-        }
-        Ok(())
-    }
-
-    /// Lights the vertices of faces that are filed, or takes all back, where the mesh turned out to contradict itself.
-    pub(super) fn close<C: Coordinate>(
-        &mut self,
-        filed: Result<(), MeshError>,
-        before: usize,
-        mesh: &Mesh<'_, C>,
-        pass: &Pass<'_>,
-    ) -> Result<(), DrawError> {
-        if let Err(error) = filed {
+        if let Err(error) = file(self, pass) {
             self.forget_from(before, pass.base);
             return Err(DrawError::Mesh(error));
         }
-        if self.objects.len() == before {
-            self.vertices.truncate(pass.base);
-        } else {
+        if self.objects.len() > before {
             self.light(mesh, pass);
         }
         Ok(())
@@ -277,22 +265,19 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// Gives those vertices their colours that triangles have.
     fn light<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &Pass<'_>) {
-        let scale = self.scale;
         let vertices = self.shared(pass);
-        if let Some(colour) = pass.one {
-            return colour_all(colour, vertices);
-        }
-        match &pass.light {
-            Some(light) if !mesh.normals.is_empty() => match mesh.colours {
-                [] => light_all(light, &pass.tint, mesh.normals, vertices),
-                colours => light_each(light, &scale, mesh.normals, colours, vertices),
-            },
-            _ => {
+        match (pass.one, &pass.light, mesh.normals, mesh.colours) {
+            (Some(colour), ..) => colour_all(colour, vertices),
+            (_, None, ..) | (_, _, [], _) => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {
                     if vertex.is_used() {
-                        vertex.colour = colour_of(mesh, i, pass, &scale);
+                        vertex.colour = pass.colour_of(mesh, i);
                     }
                 }
+            }
+            (_, Some(light), normals, []) => light_all(light, &pass.tint, normals, vertices),
+            (_, Some(light), normals, colours) => {
+                light_each(light, &pass.scale, normals, colours, vertices);
             }
         }
     }
@@ -314,10 +299,7 @@ impl<'t, L> Scene<'_, 't, L> {
     ) -> Result<(), MeshError> {
         let Faces::Triangles(faces) = mesh.faces else {
             each_triangle(mesh.faces, |face, corners, _| {
-                let filed = pass.shared > 0 && self.file_known(corners, pass);
-                if !filed {
-                    self.file_one(mesh, face, corners, pass.one, pass);
-                }
+                self.file_face(mesh, face, corners, pass);
             });
             return Ok(());
         };
@@ -325,25 +307,31 @@ impl<'t, L> Scene<'_, 't, L> {
         let faces = faces.get(..range.end).unwrap_or(faces);
         let is_there = |&i: &u16| usize::from(i) < mesh.positions.len();
         let mut from = range.start;
-        while from < faces.len() {
-            if pass.shared > 0 {
-                let rest = faces.get(from..).unwrap_or_default();
-                from += self.file_run(rest, pass);
+        loop {
+            from += self.file_run(faces.get(from..).unwrap_or_default(), pass);
+            let Some(&corners) = faces.get(from) else {
+                return Ok(());
+            };
+            if !corners.iter().all(is_there) {
+                return Err(MeshError::Index { face: from as u32 });
             }
-            if let Some(&corners) = faces.get(from) {
-                if !corners.iter().all(is_there) {
-                    return Err(MeshError::Index { face: from as u32 });
-                }
-                self.file_one(mesh, from as u32, corners, pass.one, pass);
-            }
+            self.file_one(mesh, from as u32, corners, pass.one, pass);
             from += 1;
         }
-        Ok(())
     }
 
-    /// Files one triangle, unless it has to be looked at more closely.
-    pub(super) fn file_known(&mut self, corners: [u16; 3], pass: &mut Pass<'_>) -> bool {
-        self.file_run(&[corners], pass) == 1
+    /// Files a triangle of a face, whose corners exist.
+    #[inline(never)]
+    pub(super) fn file_face<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        face: u32,
+        corners: [u16; 3],
+        pass: &mut Pass<'_>,
+    ) {
+        if self.file_run(&[corners], pass) == 0 {
+            self.file_one(mesh, face, corners, pass.one, pass);
+        }
     }
 
     /// Files faces up to the first that has to be looked at more closely; how many it took.
@@ -431,9 +419,8 @@ impl<'t, L> Scene<'_, 't, L> {
 /// beside the picture.
 #[inline(always)]
 pub(super) fn bin_of([a, b, c]: [u32; 3], picture: &Picture) -> Option<usize> {
-    let line = |place: u32| place.wrapping_add(4 << 16) >> 19;
-    let first = line(a).max(picture.lines.start);
-    let end = line(b.max(c)).min(picture.lines.end);
+    let first = (first_line(a) as u32).max(picture.lines.start);
+    let end = (first_line(b.max(c)) as u32).min(picture.lines.end);
     if first >= end {
         return None;
     }

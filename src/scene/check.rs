@@ -26,9 +26,8 @@ pub(super) fn check_draw<C: Coordinate>(
     let mesh = &draw.mesh;
     let is_filed_at_once = draw.shading == Shading::Smooth && draw.shadow.is_none();
     // Indices of triangles are looked at on the way.
-    let is_late = is_filed_at_once && matches!(mesh.faces, Faces::Triangles(_));
-    let below = if is_late { 0 } else { usize::MAX };
-    check_mesh(mesh, below).map_err(DrawError::Mesh)?;
+    let are_late = is_filed_at_once && matches!(mesh.faces, Faces::Triangles(_));
+    check_mesh(mesh, are_late).map_err(DrawError::Mesh)?;
     let at_corners = draw.light.is_some() || draw.lights.is_some() || !mesh.colours.is_empty();
     if draw.lamps.is_some() && (at_corners || !lit_at_pixels) {
         return Err(DrawError::Light);

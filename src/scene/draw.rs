@@ -192,7 +192,7 @@ impl<'a> Draws<'a> {
     #[inline(always)]
     pub(crate) fn begun(&self, object: u16) -> usize {
         let last = self.begun.get();
-        let has = |number: usize| self.states.get(number).is_some_and(|d| d.has_begun(object));
+        let has = |number: usize| self.states.get(number).is_some_and(|d| d.first <= object);
         if last > 0 && has(last - 1) && !has(last) {
             return last;
         }
@@ -318,17 +318,11 @@ impl<'t> DrawState<'t> {
         }
     }
 
-    /// Whether it is of a call that began at an object or before.
-    #[inline(always)]
-    fn has_begun(&self, object: u16) -> bool {
-        self.first <= object
-    }
-
     /// How many calls began at an object or before.
     #[cold]
     #[inline(never)]
     fn begun(object: u16, draws: &[Self]) -> usize {
-        draws.partition_point(|draw| draw.has_begun(object))
+        draws.partition_point(|draw| draw.first <= object)
     }
 
     /// Whether its triangles are drawn in another way than most.
@@ -339,11 +333,6 @@ impl<'t> DrawState<'t> {
     /// Whether lines with its triangles are: what is dithered alone takes other colours, and hides like any other.
     pub(crate) fn rules(&self) -> bool {
         self.scissor.is_some() || self.compares() || self.holes.is_some() || self.has_mask
-    }
-
-    /// Whether the alpha of its vertices is looked at.
-    pub(super) fn takes_alphas(&self) -> bool {
-        self.blend.is_some_and(|blend| blend.is_translucent())
     }
 
     /// Whether pixels of a span are not all alike: there may be holes, or alphas.

@@ -4,35 +4,36 @@
 //! anything for it, and pass two does not know of it.
 
 use super::pass::{Own, Pass};
-use super::{Scene, TexturePlace, Vertex};
-use crate::geometry::{Coordinate, Mesh, Scale, each_triangle, face_normal};
+use super::{DrawError, Scene, TexturePlace, Vertex};
+use crate::geometry::{Coordinate, Mesh, each_triangle, face_normal, place_of};
 
 impl<L> Scene<'_, '_, L> {
     /// Files all faces of a mesh, whose indices exist.
     #[inline(never)]
-    pub(super) fn file_flat<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &mut Pass<'_>) {
-        let scale = self.scale;
+    pub(super) fn file_flat<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        pass: &mut Pass<'_>,
+    ) -> Result<(), DrawError> {
         each_triangle(mesh.faces, |face, corners, provoking| {
-            let colour = |pass: &Pass<'_>| colour_of(mesh, corners, provoking, pass, &scale);
-            let Some(places) = self.places_of(corners, pass) else {
-                if self.leaves_out(corners, pass) {
+            let places = self.places_of(corners, pass);
+            match places.map(|places| pass.order(places).is_some()) {
+                Some(false) => {
+                    pass.culled += 1;
                     return;
                 }
-                let colour = Some(colour(pass));
-                return self.file_one(mesh, face, corners, colour, pass);
-            };
-            let before = self.objects.len();
-            if pass.order(places).is_some() {
-                let colour = colour(pass);
-                let own = corners.map(|i| self.copy_of(i, colour, pass));
-                if let Err(memory) = self.file_own(&own, pass) {
-                    return pass.lost.lose(memory, face);
-                }
+                None if self.leaves_out(corners, pass) => return,
+                _ => {}
             }
-            if self.objects.len() == before {
-                pass.culled += 1;
+            let normal = face_normal(corners.map(|i| place_of(mesh.positions, i.into())));
+            let colour = pass.lit(mesh, provoking.into(), Some(normal));
+            if places.is_none() {
+                return self.file_one(mesh, face, corners, Some(colour), pass);
             }
+            let own = corners.map(|i| self.copy_of(i, colour, pass));
+            self.file_whole(face, &own, pass);
         });
+        Ok(())
     }
 
     /// Where a face's vertices are on the screen; `None` where they are not there, or have to be clipped.
@@ -61,16 +62,4 @@ impl<L> Scene<'_, '_, L> {
             alpha: pass.alpha(i.into()),
         }
     }
-}
-
-/// The colour of a face, lit if it is to be.
-fn colour_of<C: Coordinate>(
-    mesh: &Mesh<'_, C>,
-    corners: [u16; 3],
-    provoking: u16,
-    pass: &Pass<'_>,
-    scale: &Scale,
-) -> u32 {
-    let normal = face_normal(corners.map(|i| mesh.place(i.into())));
-    pass.lit(mesh, usize::from(provoking), Some(normal), scale)
 }

@@ -42,12 +42,11 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         let submitted = triangles(mesh.faces);
         self.assemble_by(draw, textured, word_of, submitted, |scene, pass| {
-            if !scene.reserve(mesh.positions.len(), pass) {
-                return scene.file(false, &mesh, pass);
-            }
-            let before = scene.objects.len();
-            let filed = scene.file_meshlets(draw, eye, meshlets, pass);
-            scene.close(filed, before, &mesh, pass)
+            let has_room = scene.reserve(mesh.positions.len(), pass);
+            scene.file(&mesh, pass, |scene, pass| match has_room {
+                true => scene.file_meshlets(draw, eye, meshlets, pass),
+                false => scene.file_faces(&mesh, 0..usize::MAX, pass),
+            })
         })
     }
 

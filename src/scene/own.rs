@@ -3,10 +3,10 @@
 use super::alpha;
 use super::assemble::bin_of;
 use super::cut::{Corner, cut_all};
-use super::pass::{Own, Pass, colour_of};
+use super::pass::{Own, Pass};
 use super::project::View;
 use super::{Full, Object, Scene, TexturePlace, Vertex};
-use crate::geometry::{Coordinate, Mesh, Scale};
+use crate::geometry::{Coordinate, Mesh, place_of};
 use core::hint::black_box;
 
 impl<L> Scene<'_, '_, L> {
@@ -37,7 +37,7 @@ impl<L> Scene<'_, '_, L> {
             return;
         }
         for corner in black_box(corners.as_mut_slice()) {
-            dress(mesh, colour, pass, &self.scale, corner);
+            dress(mesh, colour, pass, corner);
         }
         let before = self.objects.len();
         let mut filed = Ok(());
@@ -131,11 +131,10 @@ fn dress<C: Coordinate>(
     mesh: &Mesh<'_, C>,
     colour: Option<u32>,
     pass: &Pass<'_>,
-    scale: &Scale,
     corner: &mut Corner,
 ) {
     let i = usize::from(corner.vertex);
-    corner.colour = colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale));
+    corner.colour = colour.unwrap_or_else(|| pass.colour_of(mesh, i));
     corner.texel = pass.texel(i);
     corner.alpha = pass.alpha(i);
 }
@@ -144,9 +143,8 @@ fn dress<C: Coordinate>(
 #[inline(never)]
 fn make_finer<C: Coordinate>(mesh: &Mesh<'_, C>, corners: &mut [Corner], view: &View) {
     for corner in corners {
-        if let Some(&at) = mesh.positions.get(usize::from(corner.vertex)) {
-            corner.point = view.finer(at.map(C::to_q30), corner.point);
-        }
+        let at = place_of(mesh.positions, corner.vertex.into());
+        corner.point = view.finer(at, corner.point);
     }
 }
 

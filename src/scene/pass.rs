@@ -1,26 +1,12 @@
 //! What is known of a draw call while its faces are filed: how they are seen, and what falls on them (K1, K10).
 
-use super::lights::{Lamps, LitVertex};
 use super::project::View;
 use super::texgen::Generated;
 use super::{Full, TexturePlace, Vertex};
-use crate::geometry::{Affine, Colour, Coordinate, Cull, Light, Mesh, Scale, Tint};
+use crate::geometry::{
+    Affine, Colour, Coordinate, Cull, LampsInModel, Light, Mesh, Scale, Tint, place_of,
+};
 use crate::num::rolled;
-
-/// What of a mesh found no room.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Lost {
-    pub(super) triangles: u32,
-    pub(super) first: Option<(Full, u32)>,
-}
-
-impl Lost {
-    /// A triangle of this face found no room.
-    pub(super) fn lose(&mut self, memory: Full, face: u32) {
-        self.triangles += 1;
-        self.first.get_or_insert((memory, face));
-    }
-}
 
 /// A corner of a triangle that has vertices of its own.
 #[derive(Clone, Copy)]
@@ -43,22 +29,16 @@ impl Own {
 /// The word of a normal, turned from its model to the camera; and of what has none.
 pub(crate) type WordOfNormal = fn(&Affine, Option<[i16; 3]>) -> u32;
 
-/// How normals become words of vertices, for light at pixels.
-pub(super) struct Normals {
-    /// From the model to the camera.
-    pub(super) turn: Affine,
-    pub(super) word: WordOfNormal,
-}
-
 /// What is known of a draw call while its faces are filed.
 pub(super) struct Pass<'a> {
     pub(super) view: View,
     /// The light in model space.
     pub(super) light: Option<Light>,
     /// Several lights, likewise, in place of the one.
-    pub(super) lamps: Option<&'a Lamps<'a>>,
-    /// Normals in place of colours.
-    pub(super) normals: Option<Normals>,
+    pub(super) lamps: Option<&'a LampsInModel>,
+    /// Normals in place of colours: the turn from the model to the camera, and what makes words of them.
+    pub(super) normals: Option<(Affine, WordOfNormal)>,
+    pub(super) scale: Scale,
     pub(super) tint: Tint,
     /// The word of all vertices, where they have the same.
     pub(super) one: Option<u32>,
@@ -77,7 +57,9 @@ pub(super) struct Pass<'a> {
     pub(super) within: bool,
     pub(super) culled: u32,
     pub(super) clipped: u32,
-    pub(super) lost: Lost,
+    /// Triangles that found no room, and which memory the first of them found full, by its face.
+    pub(super) lost: u32,
+    pub(super) first_lost: Option<(Full, u32)>,
 }
 
 /// The corners from the topmost on (of two the left one), clockwise; `None` where nothing is covered or the
@@ -152,46 +134,14 @@ pub(super) fn colour_all(colour: u32, vertices: &mut [Vertex]) {
     }
 }
 
-/// The colour of a vertex, lit if it is to be.
-pub(super) fn colour_of<C: Coordinate>(
-    mesh: &Mesh<'_, C>,
-    i: usize,
-    pass: &Pass<'_>,
-    scale: &Scale,
-) -> u32 {
-    let normal = mesh.normals.get(i).copied();
-    pass.lit(mesh, i, normal, scale)
-}
-
 impl Pass<'_> {
-    /// One for faces with vertices of their own, from behind dropped, of a colour, which they have all where `has_one`.
-    #[inline(always)]
-    pub(super) fn new(view: View, tint: Tint, has_one: bool, base: usize) -> Self {
-        Self {
-            view,
-            light: None,
-            lamps: None,
-            normals: None,
-            tint,
-            one: has_one.then(|| tint.lit(1 << 15).word()),
-            cull: Cull::Back,
-            texels: None,
-            generated: None,
-            alphas: &[],
-            base,
-            shared: 0,
-            within: false,
-            culled: 0,
-            clipped: 0,
-            lost: Lost::default(),
-        }
-    }
-
     /// Counts a face that lost a piece, or of which nothing was filed.
-    #[inline(never)]
     pub(super) fn count_face(&mut self, face: u32, filed: Result<(), Full>, is_gone: bool) {
         match filed {
-            Err(memory) => self.lost.lose(memory, face),
+            Err(memory) => {
+                self.lost += 1;
+                self.first_lost.get_or_insert((memory, face));
+            }
             Ok(()) => self.culled += u32::from(is_gone),
         }
     }
@@ -223,6 +173,11 @@ impl Pass<'_> {
         top_first(self.cull == Cull::Back, [0, 1, 2], places)
     }
 
+    /// The word of a vertex of a mesh, with its normal, if it has one.
+    pub(super) fn colour_of<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> u32 {
+        self.lit(mesh, i, mesh.normals.get(i).copied())
+    }
+
     /// The word of a vertex: its colour, lit if there is a normal; or the normal itself. One copy for all who ask.
     #[inline(never)]
     pub(super) fn lit<C: Coordinate>(
@@ -230,22 +185,22 @@ impl Pass<'_> {
         mesh: &Mesh<'_, C>,
         i: usize,
         normal: Option<[i16; 3]>,
-        scale: &Scale,
     ) -> u32 {
-        if let Some(Normals { turn, word }) = &self.normals {
+        if let Some((turn, word)) = &self.normals {
             return word(turn, normal);
         }
         let tint = match mesh.colours.get(i) {
-            Some(&colour) => Tint::new(colour, scale),
+            Some(&colour) => Tint::new(colour, &self.scale),
             None => self.tint,
         };
         let colour: Colour = match (normal, self.lamps, &self.light) {
-            (Some(normal), Some(lamps), _) => lamps.lit(LitVertex {
-                tint: &tint,
-                scale,
+            (Some(normal), Some(lamps), _) => (lamps.lit)(
+                lamps,
+                &tint,
+                &self.scale,
                 normal,
-                place: mesh.place(i),
-            }),
+                place_of(mesh.positions, i),
+            ),
             (Some(normal), None, Some(light)) => light.lit(&tint, normal),
             _ => tint.lit(1 << 15),
         };

@@ -4,7 +4,7 @@
 //! the centre of that pixel and no other.
 
 use super::check::check_alphas;
-use super::pass::{Own, Pass, colour_of};
+use super::pass::{Own, Pass};
 use super::project::{OnScreen, Point};
 use super::{Draw, DrawError, ORIGIN, Scene, Shading, Skin, TexturePlace, Vertex, WordOfNormal};
 use crate::geometry::{Colour, Coordinate, Cull, Faces, Mesh};
@@ -77,7 +77,7 @@ impl<'t, L> Scene<'_, 't, L> {
             }),
             ..*draw
         };
-        let (scale, is_plain) = (self.scale, self.is_plain(&draw));
+        let is_plain = self.is_plain(&draw);
         let middle = [self.screen.width(), self.screen.height()].map(|s| 4 * i32::from(s));
         self.assemble_by(&draw, textured, None, faces.len() as u32, |scene, pass| {
             let (x, y, z) = (0, 0, pass.view.near);
@@ -95,7 +95,7 @@ impl<'t, L> Scene<'_, 't, L> {
                     // 1/w of a list is 2^31 at the near plane.
                     let depth = mul_high_unsigned(vertex.depth, near) << 1;
                     let texel = texel.map(|t| t << TexturePlace::FINER);
-                    let own = || Colour::from_rgb8(from.colour, &scale).word();
+                    let own = || Colour::from_rgb8(from.colour, &pass.scale).word();
                     let colour = plain.unwrap_or_else(own);
                     Own {
                         vertex: Vertex::new(y << 16 | x, depth.clamp(1, (1 << 31) - 1), colour),
@@ -136,7 +136,6 @@ impl<'t, L> Scene<'_, 't, L> {
             _ => &[[0, 1, 3], [1, 2, 3]],
         };
         let submitted = (mesh.positions.len() * faces.len()) as u32;
-        let scale = self.scale;
         self.assemble_by(&draw, textured, word_of, submitted, |scene, pass| {
             for (i, &position) in mesh.positions.iter().enumerate() {
                 let point = pass.view.point(position);
@@ -145,7 +144,7 @@ impl<'t, L> Scene<'_, 't, L> {
                     continue;
                 }
                 let on = pass.view.project(point);
-                let lit = || colour_of(&mesh, i, pass, &scale);
+                let lit = || pass.colour_of(&mesh, i);
                 let colour = pass.one.unwrap_or_else(lit);
                 let texel = TexturePlace::new(pass.texel(i), [0; 2]);
                 for face in faces {
@@ -162,7 +161,8 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Files a triangle of a face, and counts it.
-    fn file_whole(&mut self, face: u32, own: &[Own; 3], pass: &mut Pass<'_>) {
+    #[inline(always)]
+    pub(super) fn file_whole(&mut self, face: u32, own: &[Own; 3], pass: &mut Pass<'_>) {
         let before = self.objects.len();
         let filed = self.file_own(own, pass);
         pass.count_face(face, filed, self.objects.len() == before);
@@ -177,12 +177,9 @@ fn corner_of(on: &OnScreen, size: u8, corner: usize) -> u32 {
     let [x, y] = [on.place & 0xFFFF, on.place >> 16].map(|at| {
         let first = (at as i32 - (side >> 1) + 4) & !7;
         // Points lie within the guard band, and so do their corners, moved to its rim.
-        [first, first + far].map(|at| at.clamp(RIM[0], RIM[1]) as u32)
+        [first, first + far].map(|at| at.clamp(0, 0xFFF8) as u32)
     });
     let down = matches!((size, corner), (1, 1) | (2.., 1 | 2));
     let right = matches!((size, corner), (1, 2) | (2.., 2 | 3));
     y[usize::from(down)] << 16 | x[usize::from(right)]
 }
-
-/// Places that points of the largest size may have: 32 bits of both, neither below 0.
-const RIM: [i32; 2] = [0, 0xFFF8];

@@ -10,11 +10,11 @@
 use super::DepthFunction;
 use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
-use super::project::{OnScreen, Point, View};
+use super::project::{Point, View};
 use super::{DepthTest, Draw, DrawError, DrawState, Master, Moved, Scene, Vertex};
 use crate::geometry::{
-    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, Tint,
-    check, each_triangle, triangles,
+    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
+    each_triangle, place_of, triangles,
 };
 
 /// What a draw call has to do with the shadows of a light, by the light's number, below [`Shadow::LIGHTS`].
@@ -111,39 +111,39 @@ impl<'t, L> Scene<'_, 't, L> {
             })
         };
         let view = View::new(&camera, self.screen, model);
-        let mut corners = sides.corners();
-        let mut near = || {
-            let point = view.point_of(mesh.positions, corners.next()?.into());
-            (view.beyond(point) == 0).then(|| view.project(point))
-        };
-        self.assemble_volume(&volume, &mut near)?;
+        self.assemble_volume(&volume, triangles(volume.mesh.faces), &mut |scene, pass| {
+            scene.share(&volume.mesh, Moved::All, pass);
+            // Where the mesh that casts the shadow has them, to the bit: what is between its border and the volume's would be
+            // in shadow or in light by mistake.
+            let near = scene.shared(pass).iter_mut().step_by(2);
+            for (vertex, edge) in near.zip(sides.edges) {
+                let [corner, _] = edge.directed();
+                let point = view.point_of(mesh.positions, corner.into());
+                if view.beyond(point) == 0 {
+                    let on = view.project(point);
+                    *vertex = Vertex::unused(on.place, on.depth);
+                }
+            }
+            scene.file_volume(&volume.mesh, pass)
+        })?;
         let cap = Draw {
             // In front of all that is seen, wherever rounding puts it.
             depth: DepthTest::new(DepthFunction::ALWAYS),
+            colour: [0; 3],
             ..volume
         };
         self.close_near(&cap, &camera, &extrusion, mesh)
     }
 
-    /// Draws a volume whose even vertices are where `near` says, one after the other: where the mesh that casts the
-    /// shadow has them, to the bit, for what is between its border and the volume's would be in shadow or in light by
-    /// mistake.
+    /// Draws what `file` brings of a volume, so many triangles; one copy for all.
+    #[inline(never)]
     fn assemble_volume(
         &mut self,
         volume: &Draw<'_, 't, i32>,
-        near: &mut dyn FnMut() -> Option<OnScreen>,
+        submitted: u32,
+        file: &mut dyn FnMut(&mut Self, &mut Pass<'_>) -> Result<(), DrawError>,
     ) -> Result<(), DrawError> {
-        let mesh = &volume.mesh;
-        let file = |scene: &mut Self, pass: &mut Pass<'_>| {
-            scene.share(mesh, Moved::All, pass);
-            for vertex in scene.shared(pass).iter_mut().step_by(2) {
-                if let Some(on) = near() {
-                    *vertex = Vertex::unused(on.place, on.depth);
-                }
-            }
-            scene.file_volume(mesh, pass)
-        };
-        self.assemble_by(volume, false, None, triangles(mesh.faces), file)
+        self.assemble_by(volume, false, None, submitted, file)
     }
 
     /// Closes a shadow volume where the near plane cuts it: triangles from the border of the cut to one point of it,
@@ -161,46 +161,35 @@ impl<'t, L> Scene<'_, 't, L> {
         if !ends.any(|[a, b]| is_before(a) || is_before(b)) {
             return Ok(());
         }
-        let state = DrawState::new(self.objects.len() as u16, cap, self.master);
         // The volume's triangles are counted already.
-        if self.draws.push(state).is_none() {
-            return Err(self.lose_call(0));
-        }
-        self.push_back(0)?;
-        let dark = Tint::new([0; 3], &self.scale);
-        let mut pass = Pass::new(view, dark, true, self.vertices.len());
-        let mut submitted = 0;
-        for is_back in [false, true] {
-            if is_back {
-                self.begin_back();
+        self.assemble_volume(cap, 0, &mut |scene, pass| {
+            let mut submitted = 0;
+            scene.file_both(0, pass, &mut |scene, is_back, pass| {
                 submitted = 0;
-            }
-            let mut hub = None;
-            let mut close = |corners: [[i32; 3]; 3]| {
-                let points = corners.map(|p| pass.view.finer(p, pass.view.point(p)));
-                // The border of the cut goes against the way of the triangle.
-                if let Some([to, from]) = near_ends(points, &pass.view) {
-                    let hub = *hub.get_or_insert(from);
-                    let [a, b] = if is_back { [to, from] } else { [from, to] };
-                    self.file_cut([hub, a, b], submitted, &mut pass);
-                    submitted += 1;
-                }
-            };
-            extrusion.each_lit(mesh, |_, corners| {
-                let [a, b, c] = corners.map(|corner| extrusion.ends(corner));
-                close([a[0], b[0], c[0]]);
-                close([c[1], b[1], a[1]]);
-            });
-            let at = |i: u16| cap.mesh.positions.get(usize::from(i)).copied();
-            each_triangle(cap.mesh.faces, |_, [a, b, c], _| {
-                if let (Some(a), Some(b), Some(c)) = (at(a), at(b), at(c)) {
-                    close([a, b, c]);
-                }
-            });
-        }
-        // One of both passes cannot see it.
-        pass.culled = pass.culled.saturating_sub(submitted);
-        self.count(&pass, submitted)
+                let mut hub = None;
+                let mut close = |corners: [[i32; 3]; 3]| {
+                    let points = corners.map(|p| pass.view.finer(p, pass.view.point(p)));
+                    // The border of the cut goes against the way of the triangle.
+                    if let Some([to, from]) = near_ends(points, &pass.view) {
+                        let hub = *hub.get_or_insert(from);
+                        let [a, b] = if is_back { [to, from] } else { [from, to] };
+                        scene.file_cut([hub, a, b], submitted, pass);
+                        submitted += 1;
+                    }
+                };
+                extrusion.each_lit(mesh, |_, corners| {
+                    let [a, b, c] = corners.map(|corner| extrusion.ends(corner));
+                    close([a[0], b[0], c[0]]);
+                    close([c[1], b[1], a[1]]);
+                });
+                let place = |i: u16| place_of(cap.mesh.positions, i.into());
+                each_triangle(cap.mesh.faces, |_, corners, _| close(corners.map(place)));
+            })?;
+            // One of both passes cannot see it.
+            pass.culled = pass.culled.saturating_sub(submitted);
+            scene.assembled.triangles += submitted;
+            Ok(())
+        })
     }
 
     /// Files a triangle that lies in the near plane, cut to the guard band.
@@ -228,17 +217,31 @@ impl<'t, L> Scene<'_, 't, L> {
         }
     }
 
-    /// Keeps the state of a volume's faces that are seen from inside, after that of the others; both or none.
-    fn push_back(&mut self, triangles: u32) -> Result<(), DrawError> {
+    /// Files what `file` brings of a volume's faces: those seen from outside, then those from inside, which have a state
+    /// of their own. Where there is no room for that, none of so many triangles are kept.
+    fn file_both(
+        &mut self,
+        triangles: u32,
+        pass: &mut Pass<'_>,
+        file: &mut dyn FnMut(&mut Self, bool, &mut Pass<'_>),
+    ) -> Result<(), DrawError> {
         let kept = self.draws.len();
         let front = self.draws.as_slice().last().copied();
         let mut back = front.unwrap_or(DrawState::EMPTY);
         back.turn();
-        if self.draws.push(back).is_some() {
-            return Ok(());
+        if self.draws.push(back).is_none() {
+            self.draws.truncate(kept.saturating_sub(1));
+            self.vertices.truncate(pass.base);
+            return Err(self.lose_call(triangles));
         }
-        self.draws.truncate(kept.saturating_sub(1));
-        Err(self.lose_call(triangles))
+        file(self, false, pass);
+        let first = self.objects.len() as u16;
+        if let Some(state) = self.draws.last_mut() {
+            state.first = first;
+        }
+        pass.clipped = 0;
+        file(self, true, pass);
+        Ok(())
     }
 
     /// Files the faces of a volume: those seen from outside, then those from inside.
@@ -248,40 +251,19 @@ impl<'t, L> Scene<'_, 't, L> {
         mesh: &Mesh<'_, C>,
         pass: &mut Pass<'_>,
     ) -> Result<(), DrawError> {
-        let before = self.objects.len();
         let submitted = triangles(mesh.faces);
-        if let Err(error) = self.push_back(submitted) {
-            self.vertices.truncate(pass.base);
-            return Err(error);
-        }
         pass.cull = Cull::Back;
-        for is_back in [false, true] {
-            if is_back {
-                self.begin_back();
-                pass.clipped = 0;
-            }
+        self.file_both(submitted, pass, &mut |scene, is_back, pass| {
             each_triangle(mesh.faces, |face, [a, b, c], _| {
                 let corners = if is_back { [a, c, b] } else { [a, b, c] };
-                if pass.shared == 0 || !self.file_known(corners, pass) {
-                    self.file_one(mesh, face, corners, pass.one, pass);
-                }
+                scene.file_face(mesh, face, corners, pass);
             });
-        }
+        })?;
         // No face is seen from both sides.
         pass.culled = pass.culled.saturating_sub(submitted);
-        if self.objects.len() == before {
-            self.vertices.truncate(pass.base);
-        } else if let Some(colour) = pass.one {
+        if let Some(colour) = pass.one {
             colour_all(colour, self.shared(pass));
         }
         Ok(())
-    }
-
-    /// What is filed from now on are faces that are seen from inside.
-    fn begin_back(&mut self) {
-        let first = self.objects.len() as u16;
-        if let Some(state) = self.draws.as_mut_slice().last_mut() {
-            state.first = first;
-        }
     }
 }

@@ -14,33 +14,34 @@ use crate::geometry::{Affine, Coordinate};
 
 /// How a draw call makes texture places of its vertices.
 #[derive(Clone, Copy, Debug)]
-pub struct TexGen(pub(super) fn(&Affine, &Texture<'_>) -> Generator);
+pub struct TexGen(pub(super) Rule);
+
+/// What makes places of the normals of a mesh that is turned like this to the camera.
+type Rule = for<'a> fn(&'a [[i16; 3]], &Affine, &Texture<'_>) -> Generated<'a>;
 
 impl TexGen {
     /// By their normals, which the mesh must have: its texture is a sphere map, whose rim is never passed.
     pub const SPHERE: Self = Self(sphere);
 }
 
-/// A rule that makes places of normals.
-#[derive(Clone, Copy, Debug)]
-pub struct Generator {
+/// Normals of a mesh, and how places are made of them.
+pub struct Generated<'a> {
+    normals: &'a [[i16; 3]],
     /// Rows of the turn from the model to the camera, to the right and down, in Q1.14.
     rows: [[i32; 3]; 2],
     /// Half of each side less a texel, in texels with 7 fraction bits.
     reach: [i32; 2],
     /// The middle, in texels with 8 fraction bits.
     middle: [i32; 2],
-    /// Places of some normals.
-    fill: PlacesOf,
+    /// Makes places of vertices from one on, as many as there are or fit.
+    fill: fn(&Self, usize, &mut [[i32; 2]]),
 }
 
-/// Makes places of normals by a rule: as many as there are of both.
-type PlacesOf = fn(&Generator, &[[i16; 3]], &mut [[i32; 2]]);
-
-/// The rule of a sphere map, for a model that is turned like this.
-fn sphere(turn: &Affine, texture: &Texture<'_>) -> Generator {
+/// The rule of a sphere map.
+fn sphere<'a>(normals: &'a [[i16; 3]], turn: &Affine, texture: &Texture<'_>) -> Generated<'a> {
     let sides = [texture.width(), texture.height()].map(|side| side as i32);
-    Generator {
+    Generated {
+        normals,
         rows: turn.rows_q14(),
         reach: sides.map(|side| (side - 1) << 6),
         middle: sides.map(|side| side << 7),
@@ -48,13 +49,14 @@ fn sphere(turn: &Affine, texture: &Texture<'_>) -> Generator {
     }
 }
 
-fn sphere_places(by: &Generator, normals: &[[i16; 3]], places: &mut [[i32; 2]]) {
+fn sphere_places(by: &Generated<'_>, from: usize, places: &mut [[i32; 2]]) {
+    let normals = by.normals.get(from..).unwrap_or_default();
     for (place, &normal) in places.iter_mut().zip(normals) {
         *place = sphere_place(by, normal);
     }
 }
 
-fn sphere_place(by: &Generator, normal: [i16; 3]) -> [i32; 2] {
+fn sphere_place(by: &Generated<'_>, normal: [i16; 3]) -> [i32; 2] {
     let [x, y, z] = normal.map(i32::from);
     let across = |i: usize| {
         let [a, b, c] = by.rows[i];
@@ -67,23 +69,11 @@ fn sphere_place(by: &Generator, normal: [i16; 3]) -> [i32; 2] {
     [across(0), across(1)]
 }
 
-/// Normals of a mesh, and the rule that makes places of them.
-pub(super) struct Generated<'a> {
-    pub(super) by: Generator,
-    pub(super) normals: &'a [[i16; 3]],
-}
-
 impl Generated<'_> {
-    /// Places of vertices from one on, as many as there are or fit.
-    fn fill(&self, from: usize, places: &mut [[i32; 2]]) {
-        let normals = self.normals.get(from..).unwrap_or_default();
-        (self.by.fill)(&self.by, normals, places);
-    }
-
     /// The place of a vertex.
     pub(super) fn texel(&self, i: usize) -> [i32; 2] {
         let mut place = [[0; 2]];
-        self.fill(i, &mut place);
+        (self.fill)(self, i, &mut place);
         place[0]
     }
 }
@@ -99,7 +89,7 @@ pub(super) fn project_generated<C: Coordinate>(
     const SOME: usize = 16;
     let (mut texels, mut all) = ([[0; 2]; SOME], true);
     for (from, vertices) in (0..).step_by(SOME).zip(vertices.chunks_mut(SOME)) {
-        generated.fill(from, &mut texels);
+        (generated.fill)(generated, from, &mut texels);
         let positions = positions.get(from..).unwrap_or_default();
         let places = places.get_mut(from..).unwrap_or_default();
         all &= project_textured(view, positions, &texels, vertices, places);
@@ -146,7 +136,7 @@ mod tests {
                 .map(|row| row.map(|c| f64::from(c) / 16_384.0));
             let side = [8, 64, 128, 1024][round % 4];
             let texture = Texture::words(&TEXELS, side, side).unwrap();
-            let by = (TexGen::SPHERE.0)(&turn, &texture);
+            let by = (TexGen::SPHERE.0)(&[], &turn, &texture);
             for _ in 0..50 {
                 let (normal, exact) = some_normal(&mut rng);
                 let place = sphere_place(&by, normal).map(|c| f64::from(c) / 256.0);
@@ -174,7 +164,7 @@ mod tests {
         let (eye, up) = ([0.0, 0.0, 5.0], [0.0, 1.0, 0.0]);
         let camera = Camera::look_at(eye, [0.0; 3], up, 100.0, 0.1, 100.0).unwrap();
         let texture = Texture::words(&TEXELS, 64, 32).unwrap();
-        let by = (TexGen::SPHERE.0)(&camera.view, &texture);
+        let by = (TexGen::SPHERE.0)(&[], &camera.view, &texture);
         const ONE: i16 = 1 << 14;
         let place = |normal| sphere_place(&by, normal).map(|c| f64::from(c) / 256.0);
         assert_eq!(place([0, 0, ONE]), [32.0, 16.0]);
@@ -183,7 +173,7 @@ mod tests {
         assert_eq!(place([-ONE, 0, 0]), [0.5, 16.0]);
         // Where there is no turn all is in the middle.
         let flat = Affine::from_rows([[0.0; 3]; 3], [0.0; 3]).unwrap();
-        let by = (TexGen::SPHERE.0)(&flat, &texture);
+        let by = (TexGen::SPHERE.0)(&[], &flat, &texture);
         assert_eq!(sphere_place(&by, [ONE, ONE, 0]), [32 << 8, 16 << 8]);
     }
 }
