@@ -307,11 +307,15 @@ impl<'m> BlockCache<'m> {
                 slow.get(index as usize).copied().unwrap_or_default()
             }
             Slow::Stored(form) => {
-                let texel = |at: u32| form.get(at as usize).unwrap_or_default();
+                let mut own = 0;
                 for (at, word) in (first..).zip(words) {
-                    word.set(upper, texel(at));
+                    let texel = form.get(at as usize).unwrap_or_default();
+                    word.set(upper, texel);
+                    if at == index {
+                        own = texel;
+                    }
                 }
-                texel(index)
+                own
             }
         }
     }
