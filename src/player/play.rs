@@ -331,7 +331,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             let player = &mut *stage.player;
             if let Some(command) = player.settings.control.and_then(ListControl::take) {
                 if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
-                    stage.flush()?;
+                    let drawn = stage.flush();
+                    drawn.map_err(|error| stage.malformed(error))?;
                 }
                 stage.player.command(command);
             }

@@ -1,9 +1,11 @@
 //! Counts, positions, and what goes on with what.
 
 use super::*;
-use crate::geometry::Affine;
-use crate::list::{Id, Missing, Reason};
+use crate::geometry::{Affine, ShadowLight, ShadowMemory};
+use crate::list::{self, Id, ListCommand, ListControl, Missing, Reason};
+use crate::num::I2F14;
 use crate::scene::{Draw, Shadow};
+use std::boxed::Box;
 
 /// Kills: words that were passed over are added without a look at how many there are already.
 #[test]
@@ -118,6 +120,40 @@ fn what_is_malformed_is_told_where_it_stands() {
     let (said, told) = super::told(&mut played, reader.words());
     assert_eq!(said.unwrap_err().offset, at);
     assert_eq!(told, [(Event::Malformed, at)]);
+}
+
+/// Its shadow has no room. Kills: an error of what stands before a restart, which is handed on and not told.
+#[test]
+fn what_cannot_be_drawn_before_a_restart_is_told() {
+    let control = Box::leak(Box::new(ListControl::new()));
+    let light = ShadowLight {
+        light: 0,
+        direction: [I2F14::ZERO, I2F14::ZERO, I2F14::ONE],
+        reach: 4,
+    };
+    let settings = PlayerSettings {
+        casts: Vec::leak(vec![light]),
+        control: Some(control),
+        ..PlayerSettings::default()
+    };
+    let memory = ShadowMemory {
+        edges: &mut [],
+        positions: &mut [],
+        faces: &mut [],
+    };
+    let mut player = player(settings, Lent::SOME).with_shadows(memory);
+    let list = listed(&[&strip(&CORNERS, NEW)[..], &[flow(3)], &[flow(0)]].concat());
+    let mut told = Vec::new();
+    drawn(|scene| {
+        let said = player.run(list, scene, &mut PLENTY.clone(), &mut |notice| {
+            if notice.event == Event::Interrupt {
+                control.send(ListCommand::Restart);
+            }
+            told.push(notice.event);
+        });
+        assert_eq!(said.unwrap_err().reason, Reason::Lent(list::Lent::Shadows));
+    });
+    assert_eq!(told, [Event::Interrupt, Event::Malformed]);
 }
 
 /// Kills: a model that what is drawn has only from the next matrix on, where BOUNDS has it at once.
