@@ -33,21 +33,11 @@ pub(crate) fn blend_each<F: PixelFormat>(
     how: Blend,
     alphas: &[PixelAlpha],
 ) {
-    match mix_of(how.mode) {
-        Some(mix) if how.channels == Blend::ALL && mix != Mix::Half => {
-            mix_each::<F>(old, new, mix, alphas);
-        }
-        _ => blend_runs::<F>(old, new, how, alphas),
-    }
-}
-
-/// Pixel by pixel, as [`Blend::by`] says: few follow each other with the same alpha.
-#[inline(always)]
-fn mix_each<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], mix: Mix, alphas: &[PixelAlpha]) {
-    let own = match mix {
-        Mix::Filter(own) | Mix::Add(own) | Mix::Subtract(own) => own,
-        Mix::Half => return,
+    let mix = mix_of(how.mode).filter(|_| how.channels == Blend::ALL);
+    let Some(mix @ (Mix::Filter(own) | Mix::Add(own) | Mix::Subtract(own))) = mix else {
+        return blend_runs::<F>(old, new, how, alphas);
     };
+    // Pixel by pixel, as `Blend::by` says: few follow each other with the same alpha.
     for ((old, &new), alpha) in old.iter_mut().zip(new).zip(alphas) {
         let level = alpha.times(own);
         let mix = match mix {
@@ -90,7 +80,7 @@ fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend,
         } => [source, destination],
         _ => [Factor::ONE, Factor::ZERO],
     };
-    let [source, destination] = factors.map(Linear::of);
+    let factors = factors.map(linear);
     for (old, &new) in old.iter_mut().zip(new) {
         let mut word = [new];
         if let Some(mix) = mix {
@@ -102,7 +92,9 @@ fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend,
             if blend.channels >> i & 1 == 0 {
                 *n = o;
             } else if mix.is_none() {
-                let sum = u32::from(*n) * source.at(o) + u32::from(o) * destination.at(o);
+                let [source, destination] =
+                    factors.map(|[at_0, slope]| slope.wrapping_mul(o.into()).wrapping_add(at_0));
+                let sum = u32::from(*n) * source + u32::from(o) * destination;
                 *n = of_255(sum).min(255) as u8;
             }
         }
@@ -110,31 +102,15 @@ fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend,
     }
 }
 
-/// A factor, which is linear in the level that is there: 255 for 1.
-#[derive(Clone, Copy)]
-struct Linear {
-    at_0: u32,
-    slope: u32,
-}
-
-impl Linear {
-    fn of(factor: Factor) -> Self {
-        let even = |at_0: u8| (u32::from(at_0), 0);
-        let (at_0, slope) = match factor {
-            Factor::Constant(value) => even(value),
-            Factor::Destination => (0, 1),
-            Factor::InverseDestination => (255, u32::MAX),
-            // Where no pixel has an alpha of its own, all are opaque.
-            Factor::SourceAlpha | Factor::TextureAlpha => even(255),
-            Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => even(0),
-        };
-        Self { at_0, slope }
-    }
-
-    /// Its value where `old` is the level that is there.
-    #[inline(always)]
-    fn at(self, old: u8) -> u32 {
-        self.slope.wrapping_mul(old.into()).wrapping_add(self.at_0)
+/// A factor, which is linear in the level that is there, 255 for 1: what it is where that is 0, and its slope.
+fn linear(factor: Factor) -> [u32; 2] {
+    match factor {
+        Factor::Constant(value) => [value.into(), 0],
+        Factor::Destination => [0, 1],
+        Factor::InverseDestination => [255, u32::MAX],
+        // Where no pixel has an alpha of its own, all are opaque.
+        Factor::SourceAlpha | Factor::TextureAlpha => [255, 0],
+        Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => [0, 0],
     }
 }
 

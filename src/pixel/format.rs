@@ -188,11 +188,7 @@ impl PixelFormat for Rgb888 {
     #[inline(always)]
     fn narrow([red_blue, green]: [u32; 2]) -> [u8; 3] {
         let (red_blue, green) = (red_blue + 0x8_0008, green + 8);
-        [
-            (red_blue >> 20) as u8,
-            (green >> 4) as u8,
-            (red_blue >> 4) as u8,
-        ]
+        [red_blue >> 20, green >> 4, red_blue >> 4].map(|level| level as u8)
     }
 }
 

@@ -29,13 +29,9 @@ impl<const N: usize> Indexed<N> {
     /// The 8-bit levels that a mesh is given for this index, which wraps at `N`.
     #[must_use]
     pub const fn colour(index: u8) -> [u8; 3] {
-        [Self::level(index); 3]
-    }
-
-    /// An index as a level, 255 for the last.
-    const fn level(index: u8) -> u8 {
+        // 255 for the last.
         let most = Self::SIZE - 1;
-        (((index as usize & most) * 255 + most / 2) / most) as u8
+        [(((index as usize & most) * 255 + most / 2) / most) as u8; 3]
     }
 }
 

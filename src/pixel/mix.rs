@@ -35,6 +35,12 @@ impl Mix {
     }
 }
 
+/// The mean of every field of a word, rounded down; `low` has the low bit of each.
+#[inline(always)]
+pub(super) const fn half(old: u32, new: u32, low: u32) -> u32 {
+    (old & new) + ((old ^ new) & !low) / 2
+}
+
 /// Blends `new` pixels over `old` ones by their 8-bit levels.
 pub(super) fn mix_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], mix: Mix) {
     for (old, &new) in old.iter_mut().zip(new) {

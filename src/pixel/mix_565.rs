@@ -5,6 +5,7 @@
 //! have not, is their mean, which cannot overflow; its top bit says whether their sum would.
 
 use super::between::{apart_565, joined_565};
+use super::mix::half;
 use super::{Mix, PixelFormat, Rgb565};
 
 /// The low bit of every field.
@@ -38,16 +39,10 @@ const fn part(old: u32, new: u32, a: u32, half: u32) -> u32 {
     (old * (32 - a) + half) + new * a
 }
 
-/// The mean of every field, rounded down.
-#[inline(always)]
-const fn half(old: u32, new: u32) -> u32 {
-    (old & new) + ((old ^ new) & !LOW) / 2
-}
-
 /// The sum of every field, at most full.
 #[inline(always)]
 const fn add(old: u32, new: u32) -> u32 {
-    let mean = half(old, new);
+    let mean = half(old, new, LOW);
     let sum = (mean & !HIGH) << 1 | (old ^ new) & LOW;
     // Where a mean reaches half of the range: all bits of a field of 5, all but one of one of 6.
     let over = mean & HIGH;
@@ -61,7 +56,7 @@ const fn add(old: u32, new: u32) -> u32 {
 fn mix_pair(old: u32, new: u32, mix: Mix) -> u32 {
     let (alpha, flip) = match mix {
         Mix::Filter(alpha) => return filter(old, new, of_32(alpha)),
-        Mix::Half => return half(old, new),
+        Mix::Half => return half(old, new, LOW),
         Mix::Add(alpha) => (alpha, 0),
         // What is missing to full grows.
         Mix::Subtract(alpha) => (alpha, u32::MAX),
@@ -77,7 +72,7 @@ pub(super) fn mix_one(old: u16, new: u16, mix: Mix) -> u16 {
     let filter = |old: u32, a: u32| joined_565(part(old, apart_565(new), a, HALF_ODD) >> 5 & ODD);
     let (alpha, flip) = match mix {
         Mix::Filter(alpha) => return filter(apart_565(old), of_32(alpha)),
-        Mix::Half => return half(old.into(), new.into()) as u16,
+        Mix::Half => return half(old.into(), new.into(), LOW) as u16,
         Mix::Add(alpha) => (alpha, 0),
         Mix::Subtract(alpha) => (alpha, u16::MAX),
     };
@@ -93,14 +88,10 @@ pub(super) fn mix_565(old: &mut [u16], new: &[u16], order: impl Fn(u32) -> u32, 
     let mut pairs = old[..count].chunks_exact_mut(2);
     let mut news = new[..count].chunks_exact(2);
     for (old, new) in pairs.by_ref().zip(news.by_ref()) {
-        old.copy_from_slice(&halves(both(pair(old), pair(new))));
+        let both = both(pair(old), pair(new));
+        old.copy_from_slice(&[both as u16, (both >> 16) as u16]);
     }
     if let ([old], [new]) = (pairs.into_remainder(), news.remainder()) {
         *old = both(u32::from(*old), u32::from(*new)) as u16;
     }
-}
-
-#[inline(always)]
-fn halves(word: u32) -> [u16; 2] {
-    [word as u16, (word >> 16) as u16]
 }

@@ -2,6 +2,7 @@
 //! pixels begin does not matter.
 
 use super::Mix;
+use super::mix::half;
 
 const LOW: u32 = 0x0101_0101;
 const HIGH: u32 = 0x8080_8080;
@@ -23,16 +24,10 @@ const fn filter(old: u32, new: u32, a: u32) -> u32 {
     (odd >> 8 & ODD) | (even & !ODD)
 }
 
-/// The mean of every byte, rounded down.
-#[inline(always)]
-const fn half(old: u32, new: u32) -> u32 {
-    (old & new) + ((old ^ new) & !LOW) / 2
-}
-
 /// The sum of every byte, at most full.
 #[inline(always)]
 const fn add(old: u32, new: u32) -> u32 {
-    let mean = half(old, new);
+    let mean = half(old, new, LOW);
     let sum = (mean & !HIGH) << 1 | (old ^ new) & LOW;
     let over = mean & HIGH;
     sum | over | (over - (over >> 7))
@@ -60,7 +55,7 @@ pub(in super::super) fn mix_bytes(old: &mut [u8], new: &[u8], mix: Mix) {
     let (old, new) = (&mut old[..count], &new[..count]);
     let (alpha, flip) = match mix {
         Mix::Filter(alpha) => return each(old, new, |o, n| filter(o, n, of_256(alpha))),
-        Mix::Half => return each(old, new, half),
+        Mix::Half => return each(old, new, |o, n| half(o, n, LOW)),
         Mix::Add(alpha) => (alpha, 0),
         // What is missing to full grows.
         Mix::Subtract(alpha) => (alpha, u32::MAX),
