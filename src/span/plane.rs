@@ -32,11 +32,8 @@ pub struct Rise {
 impl Shares {
     /// For corners that go clockwise; `area` is the doubled area in units of 1/64 pixel, at least 1.
     #[inline(always)]
-    pub(crate) fn new(area: u32, place: [u32; 3]) -> Self {
-        let (d1, d2) = (
-            place[1].wrapping_sub(place[0]),
-            place[2].wrapping_sub(place[0]),
-        );
+    pub(crate) fn new(area: u32, [a, b, c]: [u32; 3]) -> Self {
+        let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
         let up = leading_zeros_here(area);
         let r = recip_16((area << (up & 31)) >> 16) as i32;
         Self {
@@ -45,8 +42,8 @@ impl Shares {
             y1: across(d1).wrapping_mul(r),
             y2: across(d2).wrapping_mul(-r),
             up,
-            x: (place[0] & 0xFFFF) as i32 - (8 * ORIGIN + 4),
-            y: (place[0] >> 16) as i32 - (8 * ORIGIN + 4),
+            x: (a & 0xFFFF) as i32 - (8 * ORIGIN + 4),
+            y: (a >> 16) as i32 - (8 * ORIGIN + 4),
         }
     }
 

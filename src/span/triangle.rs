@@ -239,7 +239,11 @@ impl Triangle<'_> {
         let (area, far) = (self.area(), self.reach());
         let size = self.size_of(area, far);
         let way = self.way_of(size, far);
-        *sides = self.upper_sides(way);
+        *sides = if way == Way::PLAIN {
+            self.plain_sides(false)
+        } else {
+            self.upper_sides_of_any(way)
+        };
         // Later than it could be known, so that it keeps no register.
         let (line, lines) = (i32::from(line), self.lines());
         let mut change = lines.end as u32;
@@ -298,19 +302,6 @@ impl Triangle<'_> {
     }
 
     /// The sides above the turn.
-    #[inline(always)]
-    fn upper_sides(&self, way: Way) -> Sides {
-        let [a, b, c] = self.places();
-        if way == Way::PLAIN {
-            let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
-            return Sides {
-                left: Edge::short(a, across(d2), down(d2), ORIGIN),
-                right: Edge::short(a, across(d1), down(d1), ORIGIN),
-            };
-        }
-        self.upper_sides_of_any(way)
-    }
-
     #[inline(never)]
     fn upper_sides_of_any(&self, way: Way) -> Sides {
         let [a, b, c] = self.places();
