@@ -86,16 +86,13 @@ fn fill_held<F: PixelFormat>(mut course: Course, place: Place, run: &mut [F::Wor
     for (pixel, column) in run.iter_mut().zip(place.column..) {
         let parts = threshold(column, place.line);
         // Of a steep shade two words hold steps modulo 2^16.
-        let channel = |i: usize| dithered(course.value[i] >> 15 & 0xFFFF, parts, F::STEPS[i]);
+        let channel = |i: usize| {
+            let raised = (course.value[i] >> 15 & 0xFFFF) as i32 + parts_of(parts, F::STEPS[i]);
+            raised.clamp(0, 0xFFFF) as u32
+        };
         *pixel = F::pack_words(channel(0) << 16 | channel(2), channel(1) << 16);
         course.skip(1);
     }
-}
-
-/// A channel of 16 bits, of which a format keeps so many steps, raised by so many of 32 parts of one.
-#[inline(always)]
-pub(super) fn dithered(channel: u32, parts: i32, steps: u16) -> u32 {
-    (channel as i32 + parts_of(parts, steps)).clamp(0, 0xFFFF) as u32
 }
 
 #[cfg(test)]

@@ -206,24 +206,15 @@ fn copy_packed(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
         // No square of words, so one of indices.
         return copy_indices(run, texture, at, [step, 0]);
     }
+    let logs = [texture.log_width(), texture.log_height()];
     // u in the upper half takes its carry along.
-    let way = Turns {
-        u: [at << 16, step << 16],
-        v: [at, step],
-    };
+    let way = TexelWay::new([at << 16, step << 16], [at, step], logs);
     copy_turns(run, texture, way);
-}
-
-/// Places and steps as 32-bit fractions of the period.
-#[derive(Clone, Copy)]
-struct Turns {
-    u: [u32; 2],
-    v: [u32; 2],
 }
 
 /// Copies from any form and size, which repeats.
 #[inline(never)]
-fn copy_turns(run: &mut [u16], texture: &Texture<'_>, way: Turns) {
+fn copy_turns(run: &mut [u16], texture: &Texture<'_>, way: TexelWay) {
     // A loop for each form.
     let form = texture.form;
     match form {
@@ -232,24 +223,23 @@ fn copy_turns(run: &mut [u16], texture: &Texture<'_>, way: Turns) {
         Form::Index4(..) => each(run, texture, way, |i| form.get(i)),
         Form::Index2(..) => each(run, texture, way, |i| form.get(i)),
         Form::Index1(..) => each(run, texture, way, |i| form.get(i)),
-        Form::Computed(texels, _) => {
-            let logs = [texture.log_width(), texture.log_height()];
-            texels.fetch(run, TexelWay::new(way.u, way.v, logs));
-        }
+        Form::Computed(texels, _) => texels.fetch(run, way),
     }
 }
 
 /// The loop of [`copy_turns`]: one check a texel, which never fails.
 #[inline(always)]
-fn each(run: &mut [u16], texture: &Texture<'_>, way: Turns, texel: impl Fn(usize) -> Option<u16>) {
-    let (log_width, log_height) = (texture.log_width(), texture.log_height());
-    // A side of one texel has no bits: nothing is shifted by 32.
-    let ([mut u, du], right) = match log_width {
-        0 => ([0; 2], 0),
-        log => (way.u, 32 - log),
-    };
-    let ([mut v, dv], down) = (way.v, (32 - log_width - log_height) & 31);
-    let rows = ((1u32 << log_height) - 1) << log_width;
+fn each(
+    run: &mut [u16],
+    texture: &Texture<'_>,
+    way: TexelWay,
+    texel: impl Fn(usize) -> Option<u16>,
+) {
+    let [[mut u, du], [mut v, dv]] = way.ways;
+    let [right, down] = way.fraction.map(u32::from);
+    let log_width = texture.log_width();
+    let (right, down) = (right & 31, down.wrapping_sub(log_width) & 31);
+    let rows = ((1u32 << texture.log_height()) - 1) << log_width;
     for pixel in run {
         let index = (v >> down & rows) | u >> right;
         let Some(texel) = texel(index as usize) else {
@@ -318,13 +308,14 @@ pub(super) fn packed_step(step: Uv, log: u32) -> u32 {
 
 /// Places as fractions of the texture's period.
 #[inline(always)]
-fn turns(texture: &Texture<'_>, at: Uv, step: Uv) -> Turns {
-    let u = |u: i32| (u << (13 - texture.log_width())) as u32;
-    let v = |v: i32| (v << (13 - texture.log_height())) as u32;
-    Turns {
-        u: [u(at.u), u(step.u)],
-        v: [v(at.v), v(step.v)],
-    }
+fn turns(texture: &Texture<'_>, at: Uv, step: Uv) -> TexelWay {
+    let logs = [texture.log_width(), texture.log_height()];
+    let turns = |way: [i32; 2], log: u32| way.map(|place| (place << (13 - log)) as u32);
+    let (u, v) = (
+        turns([at.u, step.u], logs[0]),
+        turns([at.v, step.v], logs[1]),
+    );
+    TexelWay::new(u, v, logs)
 }
 
 impl Texture<'_> {

@@ -27,11 +27,7 @@ pub(super) fn is_flat(colour: [u32; 3]) -> bool {
 #[inline(always)]
 pub(super) fn wide_fields(word: u32) -> [u32; 3] {
     let [red, green, blue] = fields(word);
-    [
-        (red << 20) as u32,
-        (green << 20) as u32,
-        (blue << 21) as u32,
-    ]
+    [red << 20, green << 20, blue << 21].map(|field| field as u32)
 }
 
 /// Steps of red, green and blue with so many bits below a field's unit, rounded into one word.

@@ -15,10 +15,10 @@ use super::dither;
 use super::fields::{fields, is_even, is_flat, packed_step, wide_fields};
 use super::mapping::range;
 use super::ramp::{self, Packed, Pair};
-use super::{Fill, Look, Place, Primitive, ThinSpan};
+use super::{Fill, Look, Place, Primitive, States, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
-use crate::scene::{DrawState, Draws, Vertex};
+use crate::scene::{Draws, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle};
 use core::marker::PhantomData;
 
@@ -40,16 +40,8 @@ const LENT: u32 = (1 << 10) - 1;
 fn keep_wide(of: [[u32; 3]; 3], planes: &mut Planes) {
     let [[red, rx, ry], [green, gx, gy], [blue, bx, by]] = of;
     let lent = |value: u32, bits: u32| value & !LENT | bits & LENT;
-    *planes = [
-        lent(red, by >> 22),
-        rx,
-        ry,
-        lent(green, by >> 12),
-        gx,
-        gy,
-        lent(blue, by >> 2),
-        bx,
-    ];
+    let (red, green) = (lent(red, by >> 22), lent(green, by >> 12));
+    *planes = [red, rx, ry, green, gx, gy, lent(blue, by >> 2), bx];
 }
 
 /// Three planes of [`Fill::Wide`] at a place, and their steps across.
@@ -120,10 +112,8 @@ impl<F: PixelFormat> Gouraud<F> {
             }
             mean[i] = (low + high) >> 1;
         }
-        Some(Self::even_word(
-            ((mean[0] << 21) | (mean[2] << 11) | mean[1]) as u32,
-            planes,
-        ))
+        let word = mean[0] << 21 | mean[2] << 11 | mean[1];
+        Some(Self::even_word(word as u32, planes))
     }
 
     /// Planes of one colour.
@@ -174,9 +164,6 @@ impl<F: PixelFormat> Gouraud<F> {
     #[inline(never)]
     fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
         let ([at, step], off) = Self::at_anchor(planes, place);
-        if step.is_none() {
-            return ramp::fill_even::<F>(run, at.pixel::<F>());
-        }
         InParts::new(at, step.times(16), planes[6]).fill_long::<F>(run, off);
     }
 
@@ -203,15 +190,6 @@ impl<F: PixelFormat> Gouraud<F> {
         course.each_part(run, skipped, |part, [at, step]| {
             ramp::fill_pair::<F>(part, at, step);
         });
-    }
-
-    #[inline(always)]
-    fn packed(planes: &Planes, place: Place) -> Packed {
-        let [at, step, below, ..] = *planes;
-        Packed {
-            word: place.value([at, step, below]),
-            step,
-        }
     }
 }
 
@@ -353,17 +331,19 @@ impl<F: PixelFormat> Look for Gouraud<F> {
     }
 
     #[inline(always)]
-    fn fill_plain(planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
+    fn fill_plain(planes: &Planes, place: Place, _: States<'_>, run: &mut [F::Word]) {
         if !F::MADE_OF.is_one_word() {
             return Self::fill_words(planes, place, run);
         }
-        ramp::fill::<F>(run, Self::packed(planes, place));
+        let [at, step, below, ..] = *planes;
+        let word = place.value([at, step, below]);
+        ramp::fill::<F>(run, Packed { word, step });
     }
 
     #[inline(always)]
-    fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
+    fn fill(fill: Fill, planes: &Planes, place: Place, draws: States<'_>, run: &mut [F::Word]) {
         if fill == Fill::Plain && F::MADE_OF.is_one_word() {
-            return ramp::fill::<F>(run, Self::packed(planes, place));
+            return Self::fill_plain(planes, place, draws, run);
         }
         Self::fill_other(fill, planes, place, run);
     }
@@ -382,7 +362,7 @@ impl<F: PixelFormat> Look for Gouraud<F> {
         fill: Fill,
         planes: &Planes,
         place: Place,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
         dithers: bool,
         run: &mut [F::Word],
     ) -> u32 {

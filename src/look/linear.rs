@@ -257,10 +257,7 @@ pub fn halved<'w, F: Texel>(
         *word = mean::<F>([at(0, 0), at(1, 0), at(0, 1), at(1, 1)], texture.key());
     }
     let level = Texture::words(words, width, height)?.wrapping(texture.wrap());
-    Ok(match texture.key() {
-        Some(key) => level.keyed(key),
-        None => level,
-    })
+    Ok(texture.key().map_or(level, |key| level.keyed(key)))
 }
 
 /// The mean of four texels.

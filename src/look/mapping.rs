@@ -13,7 +13,7 @@ use super::Place;
 use super::area::Area;
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Homogeneous, Perspective, Within};
-use super::stride::{Range, Reach, Stride, reach};
+use super::stride::{Range, Reach, reach, stride_within};
 #[cfg(test)]
 use super::word_plane::Near;
 use crate::num::{few_leading_zeros, leading_zeros_here, mul_high, mul_high_unsigned};
@@ -60,17 +60,6 @@ const GRAIN: u32 = 3;
 #[inline(always)]
 pub fn texels_of(base: [i16; 2]) -> [i32; 2] {
     base.map(|steps| i32::from(steps) << GRAIN)
-}
-
-/// Spans of a mapping that are drawn at one go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Short {
-    /// Straight between both ends.
-    Straight,
-    /// Along a parabola.
-    Arc,
-    /// Neither.
-    No,
 }
 
 /// What planes go through at the corners, for triangles that are too thin for planes too.
@@ -155,7 +144,7 @@ impl Values {
         })
     }
 
-    /// The mapping by planes through the values, of a triangle in a picture; `false` where it is too thin for them.
+    /// The mapping by planes through the values, of a triangle in a picture; `None` where it is too thin for them.
     #[inline(never)]
     #[must_use]
     pub fn planes(
@@ -165,24 +154,18 @@ impl Values {
         texture: &Texture<'_>,
         budget: Budget,
         mapping: &mut Mapping,
-    ) -> bool {
+    ) -> Option<()> {
         mapping.method = self.method;
         mapping.base = self.base;
-        let mut area = Area::new(corners);
-        let Some(area) = &mut area else {
-            return false;
-        };
+        let mut area = Area::new(corners)?;
         let used = if self.method == Method::Wide { 2 } else { 3 };
         for i in (0..used).rev() {
-            let Some(plane) = area.plane(self.of[i], (i == 2).then_some(frame)) else {
-                return false;
-            };
-            mapping.planes[i] = plane;
+            mapping.planes[i] = area.plane(self.of[i], (i == 2).then_some(frame))?;
         }
         if self.method == Method::Perspective {
             self.stride(area.finer(), mapping, texture, budget);
         }
-        true
+        Some(())
     }
 
     /// How far exact places may be apart, from planes that are made.
@@ -231,18 +214,20 @@ impl Mapping {
             height: 240,
         };
         let mut mapping = Self::EMPTY;
-        values
-            .planes(corners, frame, texture, budget, &mut mapping)
-            .then_some(mapping)
+        values.planes(corners, frame, texture, budget, &mut mapping)?;
+        Some(mapping)
     }
 
     /// Copies a square's texels into `run`, which begins at `place` of the picture, if its span is drawn at one go.
     #[inline(always)]
     pub fn draw_short(&self, run: &mut [u16], place: Place, square: Square<'_>) -> bool {
-        match self.short(place.pixels()) {
-            Short::Straight => self.draw_straight(run, place, square),
-            Short::Arc => self.draw_arc(run, place, square),
-            Short::No => return false,
+        let pixels = place.pixels();
+        if pixels <= u32::from(self.quick) {
+            self.draw_straight(run, place, square);
+        } else if pixels <= u32::from(self.reach.arc) {
+            self.draw_arc(run, place, square);
+        } else {
+            return false;
         }
         true
     }
@@ -286,30 +271,20 @@ impl Mapping {
 
     /// Whether all of a span of so many pixels is drawn at one go, straight or along an arc, within a coarse budget.
     pub fn is_quick(&self, pixels: u32, along_arcs: bool) -> bool {
-        let short = self.short(pixels);
-        self.quick > 0 && (short == Short::Straight || along_arcs && short == Short::Arc)
-    }
-
-    /// How a square that repeats is drawn in a span of so many pixels.
-    #[inline(always)]
-    pub fn short(&self, pixels: u32) -> Short {
-        match pixels {
-            pixels if pixels <= u32::from(self.quick) => Short::Straight,
-            pixels if pixels <= u32::from(self.reach.arc) => Short::Arc,
-            _ => Short::No,
-        }
+        let is_within = |most: u8| pixels <= u32::from(most);
+        self.quick > 0 && (is_within(self.quick) || along_arcs && is_within(self.reach.arc))
     }
 
     /// Copies a square's texels into `run`, which begins at `place` of the picture, of a span that is straight between
     /// its ends.
     #[inline(never)]
-    pub fn draw_straight(&self, run: &mut [u16], place: Place, square: Square<'_>) {
+    fn draw_straight(&self, run: &mut [u16], place: Place, square: Square<'_>) {
         self.span(place).between(run, place.within(), square);
     }
 
     /// The same of a span that is one arc.
     #[inline(never)]
-    pub fn draw_arc(&self, run: &mut [u16], place: Place, square: Square<'_>) {
+    fn draw_arc(&self, run: &mut [u16], place: Place, square: Square<'_>) {
         self.span(place).arc(run, place.within(), square);
     }
 
@@ -356,9 +331,7 @@ impl Mapping {
             steps: self.reach.line,
             base: texels_of(self.base),
             planes: &self.planes,
-            line: place.line,
-            columns: place.span..place.end,
-            column: place.column,
+            place,
         };
         (sampling.draw)(&span, run);
     }
@@ -386,7 +359,7 @@ impl Mapping {
         if !budget.is_coarse() {
             reach.line = reach.line.min(4);
         }
-        span.draw(run, within, texture, Stride::within(reach.line));
+        span.draw(run, within, texture, stride_within(reach.line));
     }
 }
 

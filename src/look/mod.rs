@@ -53,7 +53,7 @@ mod word_plane;
 pub use gouraud::Gouraud;
 pub use linear::halved;
 pub use paint::Look;
-pub(crate) use paint::{Fill, Parts, Place, Primitive, ThinSpan, WordOf, check_blend};
+pub(crate) use paint::{Fill, Parts, Place, Primitive, States, ThinSpan, WordOf, check_blend};
 pub use phong::Phong;
 pub(crate) use ramp::fill_even;
 pub use shaded::{Shaded, Shader};

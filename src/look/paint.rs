@@ -2,6 +2,7 @@
 
 use crate::geometry::Scale;
 use crate::pixel::{MadeOf, PixelFormat};
+pub(crate) use crate::scene::Place;
 use crate::scene::{Blend, DrawError, DrawState, Draws, WordOfNormal};
 use crate::span::{Size, Triangle};
 
@@ -55,19 +56,14 @@ pub trait Look: Sized {
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
         run: &mut [WordOf<Self>],
     );
 
     /// [`fill`](Look::fill) of [`Fill::Plain`].
     #[doc(hidden)]
     #[inline(always)]
-    fn fill_plain(
-        planes: &Self::Planes,
-        at: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [WordOf<Self>],
-    ) {
+    fn fill_plain(planes: &Self::Planes, at: Place, draws: States<'_>, run: &mut [WordOf<Self>]) {
         Self::fill(Fill::Plain, planes, at, draws, run);
     }
 
@@ -78,7 +74,7 @@ pub trait Look: Sized {
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
         run: &mut [WordOf<Self>],
     ) {
         Self::fill(fill, planes, at, draws, run);
@@ -100,7 +96,7 @@ pub trait Look: Sized {
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
         _dithers: bool,
         run: &mut [WordOf<Self>],
     ) -> u32 {
@@ -111,7 +107,7 @@ pub trait Look: Sized {
     /// Words of the mask of a draw call's texture, of the texels that a run of pixels shows; nothing where there is no
     /// mask.
     #[doc(hidden)]
-    fn fill_mask(_planes: &Self::Planes, _at: Place, _: &[DrawState<'_>], _run: &mut [u16]) {}
+    fn fill_mask(_planes: &Self::Planes, _at: Place, _: States<'_>, _run: &mut [u16]) {}
 
     /// Planes that keep enough of a triangle's colour for a dither, in place of those it has, where these do not.
     #[doc(hidden)]
@@ -120,52 +116,11 @@ pub trait Look: Sized {
     }
 }
 
+/// What draw calls say, by their numbers.
+pub(crate) type States<'a> = &'a [DrawState<'a>];
+
 /// A pixel of a line buffer.
 pub type WordOf<L> = <<L as Look>::Pixel as crate::pixel::PixelFormat>::Word;
-
-/// Where a run of pixels begins: the columns of its span, its own first one, and the line.
-///
-/// Colours are reckoned from the ends of the span, so that a pixel has the same bits in whatever runs its span is
-/// coloured.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
-    /// The first column of the span.
-    pub span: u32,
-    /// The column after its last.
-    pub end: u32,
-    pub column: u32,
-    pub line: u32,
-}
-
-impl Place {
-    /// The span's first pixel.
-    #[inline(always)]
-    pub fn first(self) -> Self {
-        Self {
-            column: self.span,
-            ..self
-        }
-    }
-
-    /// The value here of a plane: at the picture's first pixel, and its steps to the right and down.
-    #[inline(always)]
-    pub fn value(self, [at, right, below]: [u32; 3]) -> u32 {
-        at.wrapping_add(right.wrapping_mul(self.column))
-            .wrapping_add(below.wrapping_mul(self.line))
-    }
-
-    /// Pixels of the span before the run.
-    #[inline(always)]
-    pub fn skipped(self) -> u32 {
-        self.column.wrapping_sub(self.span)
-    }
-
-    /// Pixels of the span.
-    #[inline(always)]
-    pub fn pixels(self) -> u32 {
-        self.end.wrapping_sub(self.span)
-    }
-}
 
 /// A triangle that is set up, with its number, and what draw calls say.
 #[derive(Debug)]
@@ -208,10 +163,8 @@ impl ThinSpan<'_> {
         let rise = last - first;
         let step = rise.unsigned_abs() as u32 / self.pixels.saturating_sub(1).max(1);
         let step = if rise < 0 { step.wrapping_neg() } else { step };
-        [
-            (first as u32).wrapping_sub(step.wrapping_mul(self.start)),
-            step,
-        ]
+        let at = (first as u32).wrapping_sub(step.wrapping_mul(self.start));
+        [at, step]
     }
 }
 

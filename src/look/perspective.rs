@@ -6,7 +6,7 @@
 //! | squares that repeat, at a coarse budget, up to the triangle's [`Reach::line`] | at both ends | [`Perspective::between`] |
 //! | likewise, up to its [`Reach::arc`] | at both ends, and a parabola through the exact middle | [`Perspective::arc`] |
 //! | likewise, longer; of squares of indices, any | the same, every power of two of pixels | [`Perspective::arcs`] |
-//! | all others | every [`Stride`] pixels, and at the end | [`Perspective::draw`] |
+//! | all others | every 16, 8, 4 or 2 pixels or at each, and at the end | [`Perspective::draw`] |
 //!
 //! 1/w, u/w and v/w are linear on the screen and share the triangle's exponent, which therefore
 //! cancels in `u = (u/w) / (1/w)`. The reciprocal of 1/w has 16 bits: one division of 32 bits, or
@@ -29,8 +29,8 @@
 //! a triangle for all of its spans, and once for a long span.
 
 use super::bent::copy_arc;
-use super::fetch::{Uv, Way, copy_exact, copy_from, packed, packed_on, packed_step};
-use super::stride::{Range, Reach, Stride, reach};
+use super::fetch::{Uv, Way, copy_exact, copy_from, packed_on, packed_step};
+use super::stride::{Range, Reach, reach};
 use crate::num::{few_leading_zeros, leading_zeros, mul_17, mul_high, recip_16};
 use crate::scene::{Bent, Budget, Square, Texture, Wrap};
 
@@ -196,15 +196,15 @@ impl Perspective {
         }
     }
 
-    /// Copies texels into a run of the span, with exact places at every `stride` pixels and at the
+    /// Copies texels into a run of the span, with exact places at every `2^log` pixels and at the
     /// last one. What is no square that repeats has one at each pixel where others have one at
     /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
-    pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
+    pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, log: u32) {
         let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
-        match (square, stride) {
-            (_, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
-            (Some(square), _) => self.few(run, within, Rows::of(square), stride),
+        match (square, log) {
+            (_, 3..) => self.any(run, within, texture, log),
+            (Some(square), _) => self.few(run, within, Rows::of(square), log),
             (None, _) => self.singly(run, within, texture),
         }
     }
@@ -254,11 +254,10 @@ impl Perspective {
 
     /// Places every pixel, or every 2nd or 4th, between them in two words; the last ones each have their own.
     #[inline(never)]
-    fn few(&self, run: &mut [u16], within: Within, rows: Rows<'_>, stride: Stride) {
-        if stride == Stride::One {
+    fn few(&self, run: &mut [u16], within: Within, rows: Rows<'_>, log: u32) {
+        if log == 0 {
             return self.exact(run, within.skipped, rows);
         }
-        let log = stride.log();
         let rest = self.pieces(run, within, log, |run, piece| {
             let step = piece.way.part(log);
             let mut at = piece.from.plus(step.times(piece.skipped));
@@ -300,10 +299,8 @@ impl Perspective {
 
     /// Places every 8 or 16 pixels, from any form and size, with any wrap.
     #[inline(never)]
-    fn any(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
-        self.ways(run, within, stride, |run, way| {
-            copy_exact(run, texture, way)
-        });
+    fn any(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, log: u32) {
+        self.ways(run, within, log, |run, way| copy_exact(run, texture, way));
     }
 
     /// Calls `draw` for the parts of a run between exact places, which are taken as straight.
@@ -312,7 +309,7 @@ impl Perspective {
         &self,
         run: &mut [u16],
         within: Within,
-        stride: Stride,
+        log: u32,
         mut draw: impl FnMut(&mut [u16], Way),
     ) {
         let base = self.base;
@@ -320,7 +317,6 @@ impl Perspective {
             let at = piece.from;
             draw(run, Way { base, at, step }.skip(piece.skipped));
         };
-        let log = stride.log();
         let rest = self.pieces(run, within, log, |run, piece| {
             along(run, piece, piece.way.part(log));
         });
@@ -346,11 +342,40 @@ struct Piece {
 }
 
 impl Piece {
-    /// Copies a square's texels into a run along a parabola through both places and the exact middle.
+    /// Copies a square's texels into a run along a parabola through both places and the exact middle, where `u` is
+    /// `(s0 + s1) / (q0 + q1)`: with `k` for `dq` by 1/w in the middle and `w` for the way by its steps, the step grows by
+    /// `-2 w k`.
     #[inline(always)]
     fn copy_arc(&self, run: &mut [u16], dq: u32, square: Bent<'_>) {
-        let arc = Arc::along(self, dq, square.log()).on(self.skipped);
-        copy_arc(run, square, arc.at, [arc.step, arc.turn]);
+        let log = square.log();
+        let middle = Reciprocal::of(self.q);
+        // Times 2^30.
+        let k = mul_17((dq << 1) as i32, middle.mantissa) << middle.shift;
+        let w = nth(self.way, self.steps);
+        let turn = |w: i32| (1i32 << log >> 1).wrapping_sub(mul_high(w, k)) >> log;
+        let turns = [turn(w.u), turn(w.v)];
+        // So that the last pixel has its place, however the turn was rounded.
+        let less = self.steps.saturating_sub(1) as i32;
+        let step = |w: i32, turn: i32| {
+            let half = (turn << (2 + log)).wrapping_mul(less);
+            w.wrapping_sub(half).wrapping_add(4 << log) >> (3 + log)
+        };
+        let join = |[u, v]: [i32; 2]| (v << 16).wrapping_add(u) as u32;
+        let (step, turn) = (
+            join([step(w.u, turns[0]), step(w.v, turns[1])]),
+            join(turns),
+        );
+        // From so many pixels on.
+        let n = self.skipped as u32;
+        let turned = n.wrapping_mul(n.wrapping_sub(1)) >> 1;
+        let at =
+            packed_on(self.from, step, self.skipped, log).wrapping_add(turn.wrapping_mul(turned));
+        copy_arc(
+            run,
+            square,
+            at,
+            [step.wrapping_add(turn.wrapping_mul(n)), turn],
+        );
     }
 }
 
@@ -381,54 +406,6 @@ impl Rest<'_> {
             q: self.at.q.wrapping_add(to.q),
             steps,
             skipped: self.skipped,
-        }
-    }
-}
-
-/// A parabola over a square, in one word a place as `fetch::copy` has them.
-#[derive(Clone, Copy)]
-struct Arc {
-    at: u32,
-    step: u32,
-    /// What the step grows by at each pixel.
-    turn: u32,
-}
-
-impl Arc {
-    /// Through both ends of a piece and its exact middle, where `u` is `(s0 + s1) / (q0 + q1)`: with `k` for `dq` by 1/w
-    /// in the middle and `w` for the way by its steps, the step grows by `-2 w k`.
-    #[inline(always)]
-    fn along(piece: &Piece, dq: u32, log: u32) -> Self {
-        let middle = Reciprocal::of(piece.q);
-        // Times 2^30.
-        let k = mul_17((dq << 1) as i32, middle.mantissa) << middle.shift;
-        let w = nth(piece.way, piece.steps);
-        let turn = |w: i32| (1i32 << log >> 1).wrapping_sub(mul_high(w, k)) >> log;
-        let turn = [turn(w.u), turn(w.v)];
-        // So that the last pixel has its place, however the turn was rounded.
-        let less = piece.steps.saturating_sub(1) as i32;
-        let step = |w: i32, turn: i32| {
-            let half = (turn << (2 + log)).wrapping_mul(less);
-            w.wrapping_sub(half).wrapping_add(4 << log) >> (3 + log)
-        };
-        let join = |[u, v]: [i32; 2]| (v << 16).wrapping_add(u) as u32;
-        Self {
-            at: packed(piece.from, log),
-            step: join([step(w.u, turn[0]), step(w.v, turn[1])]),
-            turn: join(turn),
-        }
-    }
-
-    /// The same from so many pixels on.
-    #[inline(always)]
-    fn on(self, pixels: usize) -> Self {
-        let n = pixels as u32;
-        let turns = n.wrapping_mul(n.wrapping_sub(1)) >> 1;
-        let at = self.at.wrapping_add(self.step.wrapping_mul(n));
-        Self {
-            at: at.wrapping_add(self.turn.wrapping_mul(turns)),
-            step: self.step.wrapping_add(self.turn.wrapping_mul(n)),
-            turn: self.turn,
         }
     }
 }

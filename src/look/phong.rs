@@ -20,7 +20,7 @@ use super::dither::parts_of;
 use super::fields::{is_even, wide_fields};
 use super::gouraud::{Gouraud, Planes as Three, even_pair, thin_shades, wide_at, wide_shades};
 use super::ramp::go_on;
-use super::{Fill, Look, Place, Primitive, ThinSpan};
+use super::{Fill, Look, Place, Primitive, States, ThinSpan};
 use crate::geometry::{Affine, PixelLamps, Scale};
 use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, Draws, WordOfNormal};
@@ -141,7 +141,7 @@ fn lit<F: PixelFormat>(
     planes: &Planes,
     place: Place,
     dithers: bool,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     run: &mut [F::Word],
 ) {
     if let Some(shine) = Shine::of(planes.draw, draws) {
@@ -191,15 +191,12 @@ impl<F: PixelFormat> Look for Phong<F> {
 
     // No triangle that is lit at pixels is plain.
     #[inline(always)]
-    fn fill_plain(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
+    fn fill_plain(planes: &Planes, at: Place, draws: States<'_>, run: &mut [F::Word]) {
         Gouraud::<F>::fill_plain(&planes.of, at, draws, run);
     }
 
-    fn fill(fill: Fill, planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
-        if planes.is_lit {
-            return lit::<F>(planes, at, false, draws, run);
-        }
-        Gouraud::<F>::fill(fill, &planes.of, at, draws, run);
+    fn fill(fill: Fill, planes: &Planes, at: Place, draws: States<'_>, run: &mut [F::Word]) {
+        Self::fill_opaque(fill, planes, at, draws, false, run);
     }
 
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {
@@ -214,7 +211,7 @@ impl<F: PixelFormat> Look for Phong<F> {
         fill: Fill,
         planes: &Planes,
         at: Place,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
         dithers: bool,
         run: &mut [F::Word],
     ) -> u32 {

@@ -10,12 +10,11 @@
 //! Cuts and exact places count from the span's first pixel, so that a pixel has the same bits in whatever runs its span
 //! is drawn.
 
-use super::Place;
 use super::fetch::{Uv, Way, copy_exact};
 use super::linear::copy_linear;
 use super::mapping::Method;
 use super::perspective::{Homogeneous, Perspective, Within};
-use super::stride::Stride;
+use super::stride::stride_within;
 use super::word_plane::Near;
 use crate::num::{exp2, log2, mul_high, mul_wide};
 use crate::scene::{SampledSpan, Sampling, Texture, Words};
@@ -85,37 +84,26 @@ impl Way {
 }
 
 impl SampledSpan<'_> {
-    /// Where the run begins.
-    fn place(&self) -> Place {
-        Place {
-            span: self.columns.start,
-            end: self.columns.end,
-            column: self.column,
-            line: self.line,
-        }
-    }
-
     /// A run of a triangle that is affine.
     fn affine(&self, run: &mut [u16], read: Read) {
-        let place = self.place();
-        let way = Way::of(self.base, self.planes, place);
+        let way = Way::of(self.base, self.planes, self.place);
         let [u, v, _] = self.planes;
         let level = match area(way.step, Uv::new(u[2] as i32, v[2] as i32)) {
             0 => 0,
             // Of which one texel has 2^36.
             area => level_of((log2(area) >> 8) - 36, self.texture.levels()),
         };
-        let way = way.skip(place.skipped() as usize).coarser(level);
+        let way = way.skip(self.place.skipped() as usize).coarser(level);
         read(run, &self.texture.level(level), way, self.words);
     }
 
     /// A run whose pixels have a 1/w each.
     fn perspective(&self, run: &mut [u16], read: Read) {
-        let place = self.place();
+        let place = self.place;
         let Perspective { base, at, step } = Perspective::of(self.base, self.planes, place);
         let down = Homogeneous::of(self.planes.map(|plane| plane[2]));
         let ends = Ends::new(at, [step, down], self.texture.levels());
-        let pixels = self.columns.len();
+        let pixels = place.pixels() as usize;
         let (mut rest, mut skipped) = (run, place.skipped() as usize);
         let mut first = 0;
         while !rest.is_empty() && first < pixels {
@@ -132,7 +120,7 @@ impl SampledSpan<'_> {
                     let (now, more) = rest.split_at_mut(rest.len().min(count - skipped));
                     let texture = self.texture.level(level);
                     let part = Perspective { base, at, step }.coarser(level);
-                    part.ways(now, within, Stride::within(self.steps), |run, way| {
+                    part.ways(now, within, stride_within(self.steps), |run, way| {
                         read(run, &texture, way, self.words);
                     });
                     rest = more;
@@ -224,7 +212,7 @@ mod tests {
     use crate::look::fetch::FRACTION;
     use crate::look::mapping::{Corner, Mapping, texels_of};
     use crate::num::random::Rng;
-    use crate::scene::Budget;
+    use crate::scene::{Budget, Place};
 
     /// Kills: a level that begins one unit of 1/w too early or too late, a part of a run that goes on into the next
     /// level or ends before it, and a run without a step that is cut.
@@ -319,9 +307,12 @@ mod tests {
                     steps: 16,
                     base: texels_of(mapping.base),
                     planes: &mapping.planes,
-                    line,
-                    columns: 0..end,
-                    column: 0,
+                    place: Place {
+                        span: 0,
+                        end,
+                        column: 0,
+                        line,
+                    },
                 };
                 let mut run = [0; 300];
                 let run = &mut run[..end as usize];
@@ -374,9 +365,12 @@ mod tests {
                 steps: 1,
                 base: [64; 2],
                 planes: &[u, v, [0; 3]],
-                line: 0,
-                columns: 0..9,
-                column: 0,
+                place: Place {
+                    span: 0,
+                    end: 9,
+                    column: 0,
+                    line: 0,
+                },
             };
             let mut run = [9; 9];
             draw(&span, &mut run, level_told);

@@ -5,10 +5,10 @@
 
 use super::gouraud::{Planes, thin_shades, wide_at, wide_shades};
 use super::ramp::go_on;
-use super::{Fill, Look, Place, Primitive, ThinSpan};
+use super::{Fill, Look, Place, Primitive, States, ThinSpan, WordOf};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
-use crate::scene::{DrawState, Draws};
+use crate::scene::Draws;
 use core::marker::PhantomData;
 
 /// What makes a pixel of three parameters that are linear between vertices.
@@ -94,13 +94,7 @@ impl<S: Shader> Look for Shaded<S> {
     }
 
     #[inline(never)]
-    fn fill(
-        _: Fill,
-        planes: &Planes,
-        place: Place,
-        _: &[DrawState<'_>],
-        run: &mut [<S::Pixel as PixelFormat>::Word],
-    ) {
+    fn fill(_: Fill, planes: &Planes, place: Place, _: States<'_>, run: &mut [WordOf<Self>]) {
         let [mut value, steps] = wide_at(planes, place);
         for (pixel, column) in run.iter_mut().zip(place.column as u16..) {
             // Planes have 31 bits.

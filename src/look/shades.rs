@@ -1,23 +1,9 @@
 //! The shade of a textured triangle: its planes, and what they are along a span.
 
 use super::course::Course;
-use super::gouraud::{Planes as Shades, course, keep_pairs, rises};
+use super::gouraud::{Planes as Shades, keep_pairs, rises};
 use super::ramp::{Pair, go_on};
-use super::{Fill, Place};
 use crate::span::Shares;
-
-/// The shade along a span from a place's own pixel on.
-#[inline(always)]
-pub(super) fn shade_course(fill: Fill, planes: &Shades, place: Place) -> Course {
-    let mut course = course(fill, planes, place);
-    if fill == Fill::Small {
-        // Half a pixel beyond, where it may have left its 16 bits.
-        for (value, step) in course.value.iter_mut().zip(course.step) {
-            *value = value.wrapping_sub((step >> 1) as u32) & 0x7FFF_FFFF;
-        }
-    }
-    course
-}
 
 /// Half of full light: where a shade rises by as much in a pixel, half of a step is not told from another, and spans
 /// have one pixel or two.

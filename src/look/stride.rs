@@ -4,40 +4,16 @@ use super::perspective::Reciprocal;
 use crate::num::{few_leading_zeros, mul_17, mul_high, mul_high_unsigned};
 use crate::scene::Budget;
 
-/// Pixels from one exact place to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum Stride {
-    /// Each pixel has its own.
-    One,
-    /// Every 2nd.
-    Two,
-    /// Every 4th.
-    Four,
-    /// Every 8th.
-    Eight,
-    /// Every 16th.
-    Sixteen,
-}
-
-impl Stride {
-    /// The power of two that it is.
-    #[inline(always)]
-    pub const fn log(self) -> u32 {
-        self as u32
-    }
-
-    /// The longest of at most so many steps.
-    #[inline(always)]
-    #[must_use]
-    pub const fn within(steps: u8) -> Self {
-        match steps {
-            16.. => Self::Sixteen,
-            8.. => Self::Eight,
-            4.. => Self::Four,
-            2.. => Self::Two,
-            _ => Self::One,
-        }
+/// Pixels from one exact place to the next, as a power of two: 16 at most, and at most so many steps.
+#[inline(always)]
+#[must_use]
+pub const fn stride_within(steps: u8) -> u32 {
+    match steps {
+        16.. => 4,
+        8.. => 3,
+        4.. => 2,
+        2.. => 1,
+        _ => 0,
     }
 }
 

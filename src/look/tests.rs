@@ -8,9 +8,9 @@ mod triangles;
 
 use super::Place;
 use super::fetch::{FRACTION, Uv, Way, copy, copy_exact, copy_wide};
-use super::mapping::{Mapping, Short};
+use super::mapping::Mapping;
 use super::perspective::{Homogeneous, Perspective, Within};
-use super::stride::Stride;
+use super::stride::stride_within;
 use crate::num::random::Rng;
 use crate::scene::{Bent, Budget};
 use crate::scene::{Texture, TextureError, Wrap};
@@ -347,10 +347,9 @@ fn draw_mapped(
     texture: &Texture<'_>,
     budget: Budget,
 ) {
-    match (texture.square(), mapping.short(at.pixels())) {
-        (Some(square), Short::Straight) => mapping.draw_straight(run, at, square),
-        (Some(square), Short::Arc) => mapping.draw_arc(run, at, square),
-        _ => mapping.draw_any(run, at, texture, budget),
+    let square = texture.square();
+    if !square.is_some_and(|square| mapping.draw_short(run, at, square)) {
+        mapping.draw_any(run, at, texture, budget);
     }
 }
 
@@ -373,7 +372,7 @@ fn draw_reached(
         return (reach.arc, true);
     }
     let line = reach.line.min(if budget.is_coarse() { 64 } else { 4 });
-    span.draw(run, within, texture, Stride::within(line));
+    span.draw(run, within, texture, stride_within(line));
     (line, false)
 }
 

@@ -17,11 +17,11 @@ use super::fields::is_even;
 use super::gouraud::{Planes as Shades, course, even_pair, pair_at, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values};
 use super::phong::Shine;
-use super::shades::{shade_at, shade_course, shade_planes};
+use super::shades::{shade_at, shade_planes};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
-use super::{Fill, Look, Place, Primitive, ThinSpan};
+use super::{Fill, Look, Place, Primitive, States, ThinSpan};
 use crate::geometry::Scale;
 use crate::num::rolled;
 use crate::pixel::PixelFormat;
@@ -53,17 +53,25 @@ impl Planes {
     /// The shade along a span from a place's pixel on; `None` in full light.
     #[inline(always)]
     pub(super) fn shade_course(&self, place: Place) -> Option<Course> {
-        Some(shade_course(self.shaded?, &self.shade, place))
+        let fill = self.shaded?;
+        let mut course = course(fill, &self.shade, place);
+        if fill == Fill::Small {
+            // Half a pixel beyond, where it may have left its 16 bits.
+            for (value, step) in course.value.iter_mut().zip(course.step) {
+                *value = value.wrapping_sub((step >> 1) as u32) & 0x7FFF_FFFF;
+            }
+        }
+        Some(course)
     }
 
     /// What transparent texels are, where there may be any.
-    pub(super) fn holes(&self, draws: &[DrawState<'_>]) -> Option<Holes> {
+    pub(super) fn holes(&self, draws: States<'_>) -> Option<Holes> {
         self.state(draws)?.holes.filter(|_| self.mapped)
     }
 
     /// The texels of a run of [`Fill::Plain`], by a call.
     #[inline(always)]
-    pub(super) fn copy_plain(&self, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    pub(super) fn copy_plain(&self, place: Place, draws: States<'_>, run: &mut [u16]) {
         if let Some((texture, _)) = self.state(draws).and_then(DrawState::texture) {
             let plane = self.mapping.planes[0];
             copy_part(run, texture, place.value(plane), plane[1]);
@@ -91,7 +99,7 @@ impl Planes {
     pub(super) fn light<F: PixelFormat>(
         &mut self,
         triangle: &Triangle<'_>,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
     ) -> bool {
         let Some(shine) = Shine::of(self.draw, draws) else {
             return false;
@@ -217,13 +225,14 @@ impl<F: Texel> Textured<F> {
             return false;
         };
         let mapping = &mut planes.mapping;
-        planes.mapped = values.planes(&corners, triangle.frame, texture, budget, mapping);
+        let made = values.planes(&corners, triangle.frame, texture, budget, mapping);
+        planes.mapped = made.is_some();
         !planes.mapped
     }
 
     /// The texels of a run, as they are; white without any.
     #[inline(always)]
-    pub(super) fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    pub(super) fn texels(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         let state = planes.state(draws);
         if let Some(square) = state.and_then(DrawState::square) {
             // Without a mapping none is short enough.
@@ -251,13 +260,13 @@ impl<F: Texel> Textured<F> {
 
     /// [`fill_plain`](Look::fill_plain), called.
     #[inline(never)]
-    fn fill_word(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    fn fill_word(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         Self::fill_plain(planes, place, draws, run);
     }
 
     /// The texels of a run, times its shade.
     #[inline(never)]
-    fn fill_shaded(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    fn fill_shaded(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         Self::texels(planes, place, draws, run);
         Self::shade(planes, place, run, false);
     }
@@ -308,10 +317,8 @@ impl<F: Texel> Textured<F> {
             let way = step.times(skipped);
             if dithers {
                 // Each pixel has the shade of its own place.
-                let still = Course {
-                    step: [0; 3],
-                    ..course
-                };
+                let mut still = course;
+                still.step = [0; 3];
                 let [own, _] = shade_at(&still, 1);
                 F::tint_dithered(run, own.plus(way), step, [at.column, at.line]);
             } else {
@@ -385,7 +392,7 @@ impl<F: Texel> Look for Textured<F> {
     }
 
     #[inline(always)]
-    fn fill_plain(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    fn fill_plain(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         let Some(square) = planes.state(draws).and_then(DrawState::square) else {
             return;
         };
@@ -397,12 +404,12 @@ impl<F: Texel> Look for Textured<F> {
     }
 
     #[inline(never)]
-    fn fill(fill: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    fn fill(fill: Fill, planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         Self::fill_slot(fill, planes, place, draws, run);
     }
 
     #[inline(always)]
-    fn fill_slot(how: Fill, planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    fn fill_slot(how: Fill, planes: &Planes, at: Place, draws: States<'_>, run: &mut [u16]) {
         if how == Fill::Plain {
             return Self::fill_word(planes, at, draws, run);
         }
@@ -426,7 +433,7 @@ impl<F: Texel> Look for Textured<F> {
         fill: Fill,
         planes: &Planes,
         place: Place,
-        draws: &[DrawState<'_>],
+        draws: States<'_>,
         dithers: bool,
         run: &mut [u16],
     ) -> u32 {
@@ -454,7 +461,7 @@ impl<F: Texel> Look for Textured<F> {
     }
 
     #[inline(never)]
-    fn fill_mask(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    fn fill_mask(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         let texture = planes.state(draws).and_then(DrawState::texture);
         let (true, Some((texture, budget))) = (planes.mapped, texture) else {
             return;

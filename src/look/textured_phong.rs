@@ -9,11 +9,11 @@ use super::phong::{Shine, light, word_of};
 use super::textured::{Planes, Textured};
 use super::textured_wide::{each_holed, each_texels};
 use super::tint::Texel;
-use super::{Fill, Look, Place, Primitive, ThinSpan};
+use super::{Fill, Look, Place, Primitive, States, ThinSpan, WordOf};
 use crate::geometry::Scale;
 use crate::num::of_255;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
-use crate::scene::{DrawState, Draws, WordOfNormal};
+use crate::scene::{Draws, WordOfNormal};
 use core::marker::PhantomData;
 
 /// The look of textures lit at each pixel, in the pixel format `F`; texels are as for [`Textured`], and what shines is
@@ -62,7 +62,7 @@ fn shone<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     dithers: bool,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     run: &mut [F::Word],
 ) {
     let how = Fill::Wide;
@@ -78,7 +78,7 @@ fn opaque<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     dithers: bool,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     run: &mut [F::Word],
 ) -> u32 {
     let Some(holes) = planes.holes(draws) else {
@@ -115,8 +115,8 @@ macro_rules! lit {
             fn fill_plain(
                 planes: &Planes,
                 place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
+                draws: States<'_>,
+                run: &mut [WordOf<Self>],
             ) {
                 Textured::<$format>::fill_plain(planes, place, draws, run);
             }
@@ -125,8 +125,8 @@ macro_rules! lit {
                 fill: Fill,
                 planes: &Planes,
                 place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
+                draws: States<'_>,
+                run: &mut [WordOf<Self>],
             ) {
                 match planes.shine(draws) {
                     Some(shine) => shone::<$format, $texel>(&shine, planes, place, false, draws, run),
@@ -138,9 +138,9 @@ macro_rules! lit {
                 fill: Fill,
                 planes: &Planes,
                 place: Place,
-                draws: &[DrawState<'_>],
+                draws: States<'_>,
                 dithers: bool,
-                run: &mut [<$format as PixelFormat>::Word],
+                run: &mut [WordOf<Self>],
             ) -> u32 {
                 match planes.shine(draws) {
                     Some(shine) => opaque::<$format, $texel>(&shine, planes, place, dithers, draws, run),
@@ -148,7 +148,7 @@ macro_rules! lit {
                 }
             }
 
-            fn fill_mask(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+            fn fill_mask(planes: &Planes, at: Place, draws: States<'_>, run: &mut [u16]) {
                 Textured::<$texel>::fill_mask(planes, at, draws, run);
             }
         }

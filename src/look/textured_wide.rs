@@ -12,11 +12,11 @@ use super::course::Course;
 use super::ramp::go_on;
 use super::textured::{Planes, Textured};
 use super::tint::{Shade, Texel};
-use super::{Fill, Look, Place, Primitive, ThinSpan};
+use super::{Fill, Look, Place, Primitive, States, ThinSpan, WordOf};
 use crate::geometry::Scale;
 use crate::num::{mul_high, rolled};
 use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
-use crate::scene::{DrawState, Draws, Holes};
+use crate::scene::{Draws, Holes};
 use core::hint::black_box;
 
 /// The look that fetches texels.
@@ -128,7 +128,7 @@ pub(super) fn each_texels<W, T: Texel>(
     how: Fill,
     planes: &Planes,
     mut place: Place,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     run: &mut [W],
     mut shade: impl FnMut(Place, &[u16], &mut [W]),
 ) {
@@ -157,7 +157,7 @@ pub(super) fn each_texels<W, T: Texel>(
 pub(super) fn each_holed<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     holes: Holes,
     run: &mut [F::Word],
     mut shade: impl FnMut(Place, &[u16], &mut [F::Word]),
@@ -184,31 +184,18 @@ fn recoloured<F: PixelFormat, T: Texel>(texel: u16) -> F::Word {
     F::from_rgb8(T::to_rgb8(texel))
 }
 
-/// Colours a run that is not the first of its span, texels first.
+/// Colours a run, with which its span begins or not, texels first.
 #[inline(never)]
-fn fill_part<F: PixelFormat>(
+fn fill<F: PixelFormat, const BEGINS: bool>(
     how: Fill,
     planes: &Planes,
     place: Place,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     run: &mut [F::Word],
 ) {
     each_texels::<_, Rgb565>(how, planes, place, draws, run, |place, texels, run| {
-        shade_part::<F>(planes, place, texels, run);
-    });
-}
-
-/// Colours a run with which a span begins, likewise.
-#[inline(never)]
-fn fill<F: PixelFormat>(
-    how: Fill,
-    planes: &Planes,
-    place: Place,
-    draws: &[DrawState<'_>],
-    run: &mut [F::Word],
-) {
-    each_texels::<_, Rgb565>(how, planes, place, draws, run, |place, texels, run| {
-        shade::<F>(planes, place, texels, run);
+        let shade = if BEGINS { shade::<F> } else { shade_part::<F> };
+        shade(planes, place, texels, run);
     });
 }
 
@@ -217,19 +204,16 @@ fn fill<F: PixelFormat>(
 fn fill_opaque<F: PixelFormat>(
     planes: &Planes,
     place: Place,
-    draws: &[DrawState<'_>],
+    draws: States<'_>,
     run: &mut [F::Word],
 ) -> u32 {
     let Some(holes) = planes.holes(draws) else {
-        fill_part::<F>(Fill::Wide, planes, place, draws, run);
+        fill::<F, false>(Fill::Wide, planes, place, draws, run);
         return u32::MAX;
     };
     each_holed::<F, Rgb565>(planes, place, draws, holes, run, |place, texels, run| {
-        let texels = if texels.is_empty() {
-            &[0xFFFF; 32]
-        } else {
-            texels
-        };
+        let white = &[0xFFFF; 32];
+        let texels = if texels.is_empty() { white } else { texels };
         shade_part::<F>(planes, place, texels, run);
     })
 }
@@ -258,13 +242,13 @@ macro_rules! wide {
                 how: Fill,
                 planes: &Planes,
                 place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
+                draws: States<'_>,
+                run: &mut [WordOf<Self>],
             ) {
                 if place.skipped() == 0 {
-                    fill::<$format>(how, planes, place, draws, run);
+                    fill::<$format, true>(how, planes, place, draws, run);
                 } else {
-                    fill_part::<$format>(how, planes, place, draws, run);
+                    fill::<$format, false>(how, planes, place, draws, run);
                 }
             }
 
@@ -273,14 +257,14 @@ macro_rules! wide {
                 _: Fill,
                 planes: &Planes,
                 place: Place,
-                draws: &[DrawState<'_>],
+                draws: States<'_>,
                 _: bool,
-                run: &mut [<$format as PixelFormat>::Word],
+                run: &mut [WordOf<Self>],
             ) -> u32 {
                 fill_opaque::<$format>(planes, place, draws, run)
             }
 
-            fn fill_mask(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+            fn fill_mask(planes: &Planes, at: Place, draws: States<'_>, run: &mut [u16]) {
                 Texels::fill_mask(planes, at, draws, run);
             }
         }

@@ -86,11 +86,8 @@ impl Shade {
     /// Red, green and blue with 10 bits below full light.
     #[inline(always)]
     const fn channels(self) -> [u32; 3] {
-        [
-            self.red_blue >> 21,
-            self.green >> 21,
-            self.red_blue >> 5 & 0x7FF,
-        ]
+        let Self { red_blue, green } = self;
+        [red_blue >> 21, green >> 21, red_blue >> 5 & 0x7FF]
     }
 }
 
@@ -179,10 +176,7 @@ fn gouraud_long<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Sh
     let mut eights = run.chunks_exact_mut(8);
     for eight in eights.by_ref() {
         // Unknown to the compiler, which would keep multiples of it.
-        let step = Shade {
-            red_blue: unknown(step.red_blue),
-            green: unknown(step.green),
-        };
+        let step = Shade::new(unknown(step.red_blue), unknown(step.green));
         if let [a, b, c, d, e, f, g, h] = eight {
             pair::<SWAPPED>(a, b, shade.channels(), m);
             shade = shade.plus(step);

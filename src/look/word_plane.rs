@@ -164,8 +164,6 @@ fn one_axis(
 fn lies_inside(places: &[TexturePlace; 3], texture: &Texture<'_>) -> bool {
     let within = |at: i32, side: u32| at >= 32 && at <= (side << 8) as i32 - 32;
     let sides = [texture.width(), texture.height()];
-    places
-        .iter()
-        .map(|&place| coarse(place))
-        .all(|[u, v]| within(u, sides[0]) && within(v, sides[1]))
+    let mut places = places.iter().map(|&place| coarse(place));
+    places.all(|[u, v]| within(u, sides[0]) && within(v, sides[1]))
 }

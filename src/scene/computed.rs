@@ -51,9 +51,9 @@ impl core::fmt::Debug for dyn Texels + '_ {
 #[derive(Clone, Copy, Debug)]
 pub struct TexelWay {
     /// To the right and down: the place of the next pixel and the step from there, in 2^-32 of a side.
-    ways: [[u32; 2]; 2],
+    pub(crate) ways: [[u32; 2]; 2],
     /// Fraction bits of columns and of rows.
-    fraction: [u8; 2],
+    pub(crate) fraction: [u8; 2],
 }
 
 impl TexelWay {

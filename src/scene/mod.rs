@@ -85,7 +85,7 @@ pub use read::{FiledCorner, FiledTriangle};
 pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
-pub(crate) use sampling::{Method, SampledSpan, Words};
+pub(crate) use sampling::{Method, Place, SampledSpan, Words};
 pub use scissor::Scissor;
 pub use screen::{ScreenCorner, ScreenVertex};
 pub use shadow::Shadow;

@@ -4,7 +4,6 @@
 //! [`Sampling`] does not have the code.
 
 use super::{Budget, Texture, TexturePlace, Vertex};
-use core::ops::Range;
 
 /// A way from places on a texture to colours, for [`Texture::sampled`].
 #[derive(Clone, Copy, Debug)]
@@ -53,8 +52,49 @@ pub(crate) struct SampledSpan<'a> {
     pub(crate) base: [i32; 2],
     /// Values at the picture's first pixel, steps to the right, steps down.
     pub(crate) planes: &'a [[u32; 3]; 3],
-    pub(crate) line: u32,
-    pub(crate) columns: Range<u32>,
-    /// The first column of the run.
-    pub(crate) column: u32,
+    pub(crate) place: Place,
+}
+
+/// Where a run of pixels begins: the columns of its span, its own first one, and the line.
+///
+/// Colours are reckoned from the ends of the span, so that a pixel has the same bits in whatever runs its span is
+/// coloured.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// The first column of the span.
+    pub span: u32,
+    /// The column after its last.
+    pub end: u32,
+    pub column: u32,
+    pub line: u32,
+}
+
+impl Place {
+    /// The span's first pixel.
+    #[inline(always)]
+    pub fn first(self) -> Self {
+        Self {
+            column: self.span,
+            ..self
+        }
+    }
+
+    /// The value here of a plane: at the picture's first pixel, and its steps to the right and down.
+    #[inline(always)]
+    pub fn value(self, [at, right, below]: [u32; 3]) -> u32 {
+        at.wrapping_add(right.wrapping_mul(self.column))
+            .wrapping_add(below.wrapping_mul(self.line))
+    }
+
+    /// Pixels of the span before the run.
+    #[inline(always)]
+    pub fn skipped(self) -> u32 {
+        self.column.wrapping_sub(self.span)
+    }
+
+    /// Pixels of the span.
+    #[inline(always)]
+    pub fn pixels(self) -> u32 {
+        self.end.wrapping_sub(self.span)
+    }
 }

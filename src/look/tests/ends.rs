@@ -1,7 +1,6 @@
 //! Which pixels of a span have exact places (H4, H5), against f64.
 
 use super::super::perspective::{Perspective, Within};
-use super::super::stride::Stride;
 use super::{WRAPS, coordinates, off, some_span, truth};
 use crate::num::random::Rng;
 use crate::scene::{Texture, Wrap};
@@ -17,14 +16,6 @@ fn off_place(texel: u16, [u, v]: [f64; 2], wrap: Wrap) -> f64 {
     off(u, texel, wrap).max(off(v, texel >> 8, wrap))
 }
 
-const STRIDES: [Stride; 5] = [
-    Stride::One,
-    Stride::Two,
-    Stride::Four,
-    Stride::Eight,
-    Stride::Sixteen,
-];
-
 /// Ends, and every pixel of a stride, have the places of exact perspective; what is between two exact ones is their mean.
 ///
 /// Kills: a last piece that ends a pixel early, a piece that begins at the pixel behind the exact one, odd pixels
@@ -37,25 +28,25 @@ fn ends_and_strides_are_exact_and_what_is_between_is_the_mean() {
     let mut means = 0;
     for i in 0..20_000 {
         let mut run = std::vec![0; 1 + rng.below(80) as usize];
-        let (span, stride, wrap) = (
+        let (span, log, wrap) = (
             some_span(&mut rng, run.len()),
-            STRIDES[i % 5],
+            i as u32 % 5,
             WRAPS[i / 5 % 3],
         );
         let texture = square.wrapping(wrap);
         let within = Within::whole(&run);
-        span.draw(&mut run, within, &texture, stride);
-        let (last, each) = (run.len() - 1, 1 << stride.log());
+        span.draw(&mut run, within, &texture, log);
+        let (last, each) = (run.len() - 1, 1 << log);
         for (x, &texel) in run.iter().enumerate() {
             let at = truth(&span, x);
             let is_exact = x == last || x % each == 0;
             if is_exact {
                 let off = off_place(texel, at, wrap);
                 let most = fixed_point(&span, at);
-                assert!(off <= most, "{x} of {}, {stride:?}: {off}", run.len());
+                assert!(off <= most, "{x} of {}, {log}: {off}", run.len());
             }
             // What does not repeat has exact places where others have every 2nd.
-            if stride == Stride::Two && wrap == Wrap::Repeat && !is_exact {
+            if log == 1 && wrap == Wrap::Repeat && !is_exact {
                 let [a, b] = [truth(&span, x - 1), truth(&span, x + 1)];
                 let mean = [0, 1].map(|axis| f64::midpoint(a[axis], b[axis]));
                 let most = fixed_point(&span, a).max(fixed_point(&span, b));
