@@ -239,7 +239,8 @@ fn a_list_has_bytes_and_slots() -> Tried {
     assert_eq!(plan.beyond, None);
     for board in &plan.boards {
         let reckoned = board.reckoned.ok_or(board.name)?;
-        assert!(reckoned.is_within && reckoned.instructions > 1e6);
+        // Half of its 2,256 triangles are turned away, and a triangle that is drawn takes more than 600.
+        assert!(reckoned.is_within && reckoned.instructions > 1128.0 * 600.0);
         assert!(board.slow_bytes > 20_000);
     }
     let enough = plan.enough().ok_or("there are slots enough")?;
