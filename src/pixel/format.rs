@@ -18,8 +18,9 @@ pub trait PixelFormat {
     /// A pixel from whole steps, each at most [`STEPS`](PixelFormat::STEPS).
     fn pack(steps: [u8; 3]) -> Self::Word;
 
-    /// A pixel from two words with 16 bits a channel: red and blue, green in the upper half. Unless a format has a way of
-    /// its own, these are cut to whole steps, of which [`STEPS`](PixelFormat::STEPS) has a power of two less one.
+    /// A pixel from two words with 16 bits a channel: red and blue, green in the upper half. They hold steps, the largest
+    /// number of [`STEPS`](PixelFormat::STEPS) with its top bit at the top. Unless a format has a way of its own, these are
+    /// cut to whole steps.
     #[inline(always)]
     fn pack_words(red_blue: u32, green: u32) -> Self::Word {
         let channels = [red_blue >> 16, green >> 16, red_blue & 0xFFFF];

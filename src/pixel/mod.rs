@@ -66,6 +66,48 @@ mod tests {
         }
     }
 
+    /// Channels whose numbers of steps are no powers of two less one.
+    struct Uneven;
+
+    impl PixelFormat for Uneven {
+        type Word = [u8; 3];
+        const STEPS: [u16; 3] = [5, 9, 200];
+        const MADE_OF: MadeOf = MadeOf::OneWord;
+
+        fn pack(steps: [u8; 3]) -> [u8; 3] {
+            steps
+        }
+
+        fn to_rgb8(word: [u8; 3]) -> [u8; 3] {
+            [0, 1, 2].map(|i| (u16::from(word[i]) * 255 / Self::STEPS[i]) as u8)
+        }
+
+        fn widen(word: [u8; 3]) -> [u32; 2] {
+            let [red, green, blue] = word.map(u32::from);
+            [red << 20 | green << 4, blue << 4]
+        }
+
+        fn narrow([red_green, blue]: [u32; 2]) -> [u8; 3] {
+            [red_green >> 20, red_green >> 4 & 255, blue >> 4].map(|steps| steps as u8)
+        }
+    }
+
+    /// Kills: steps that begin a bit higher or lower, where their number is no power of two less one.
+    #[test]
+    fn steps_of_any_number_are_cut_from_a_word() {
+        let field = |bits: u32, i: usize, step: u8, rest: bool| {
+            let fraction = bits - 1 - Uneven::STEPS[i].ilog2();
+            (u32::from(step) << fraction) | if rest { (1 << fraction) - 1 } else { 0 }
+        };
+        for (red, green) in (0..=5).flat_map(|red| (0..=9).map(move |green| (red, green))) {
+            for (blue, rest) in (0..=200).flat_map(|blue| [(blue, false), (blue, true)]) {
+                let word = field(11, 0, red, rest) << 21 | field(10, 2, blue, rest) << 11;
+                let word = word | field(11, 1, green, rest);
+                assert_eq!(Uneven::of_word(word), [red, green, blue]);
+            }
+        }
+    }
+
     #[test]
     fn words_give_the_pixels_of_pairs() {
         for i in 0..200_000u32 {

@@ -302,7 +302,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     /// passed over by BOUNDS or CONE, which that walk never does: they end within a block, or what follows counts on them.
     ///
     /// # Errors
-    /// When a block is malformed, or asks for what there is not. The list has stopped; a start begins it again.
+    /// When a block is malformed, or asks for what there is not. The list has stopped; a start begins it again, and
+    /// [`ListCommand::Resume`] goes on behind a block that asked for what there is not.
     pub fn run(
         &mut self,
         words: impl Words<'t>,

@@ -2,10 +2,10 @@
 //!
 //! A texture is made when a block first draws with a number and its palette, and stays as long as the memory is lent:
 //! the same pair is found again where it is sampled and dithered alike, so a list that is played each frame makes its
-//! textures once. Indices of 1, 2, 4 and
-//! 8 bits stay where they lie, and so do texels of 16 bits where the panel has their order of bytes; palettes, and
-//! other texels, become words of the panel in memory that is lent. Where all are opaque or transparent, a word stands
-//! for those that are transparent; else there is a mask, in a room of its own, which says also which are not dithered.
+//! textures once. Indices of 1, 2, 4 and 8 bits stay where they lie, and so do texels of 16 bits where the panel has
+//! their order of bytes; palettes, and other texels, become words of the panel in memory that is lent. Where all are
+//! opaque or transparent, a word stands for those that are transparent; else there is a mask, in a room of its own, which
+//! says also which are not dithered.
 
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
 use crate::pixel::PixelFormat;

@@ -5,7 +5,8 @@ use super::alpha::PixelAlpha;
 /// How a new colour and the one that is there become one, channel by channel.
 ///
 /// The alpha of a mode is multiplied by those of [vertices](super::Draw::alphas) and of [texels](super::Texture::masked),
-/// if the call has any: so [`Blend::ALPHA`] is by these alone.
+/// if the call has any: so [`Blend::ALPHA`] is by these alone. Pixels of 5, 6 and 5 bits are blended by the nearest 32nd of
+/// the product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlendMode {
     /// The new one: what it hides is hidden.

@@ -156,6 +156,23 @@ fn what_cannot_be_drawn_before_a_restart_is_told() {
     assert_eq!(told, [Event::Interrupt, Event::Malformed]);
 }
 
+/// Kills: a block that asks for what there is not, and is read again.
+#[test]
+fn what_is_refused_is_passed_over_by_a_resume() {
+    let (asks, triangle) = (material(Some(7)), strip(&CORNERS[..3], NEW));
+    let behind = 4 * (asks.len() + 2 * triangle.len() + 1) as u32;
+    let list = listed(&[&asks[..], &triangle, &triangle, &[flow(0)]].concat());
+    let mut player = player(PlayerSettings::default(), Lent::SOME);
+    let (said, _) = run(&mut player, list);
+    let error = said.unwrap_err();
+    assert_eq!(error.reason, Reason::NoTexture(7));
+    assert_eq!(error.offset, 4 * asks.len() as u32);
+    player.command(ListCommand::Resume);
+    let (said, objects) = run(&mut player, list);
+    assert_eq!((said, objects), (Ok(Halt::End), 1));
+    assert_eq!(4 * player.position(), behind);
+}
+
 /// Kills: a model that what is drawn has only from the next matrix on, where BOUNDS has it at once.
 #[test]
 fn another_model_counts_from_the_next_block_on() {
