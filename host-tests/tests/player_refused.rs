@@ -46,6 +46,23 @@ fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: 
     refused_with::<L>(PlayerSettings::default(), list, at, block, reason);
 }
 
+/// Three vertices of a table, or of a strip, whose places have 32 bits; where they are.
+fn fine_places(writer: &mut ListWriter<'_>, id: Id) -> u32 {
+    let fields = [Field {
+        parameter: Field::PLACE,
+        form: FieldForm::S32x3,
+    }];
+    let format = VertexFormat::new(&fields).unwrap();
+    writer.state(&State::Format(format)).unwrap();
+    let at = writer.position();
+    let header = Header {
+        new: id == Id::Short,
+        ..Header::of(id, 3)
+    };
+    writer.vertices(header, &[0; 9]).unwrap();
+    at
+}
+
 /// The same with settings.
 fn refused_with<L: Look<Pixel = Rgb565Be>>(
     settings: PlayerSettings<'static, 'static>,
@@ -132,22 +149,10 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         0
     });
     refused::<Smooth>(&list, at, Id::State, Reason::Missing(Textures));
-    let (list, at) = after_a_triangle(|writer| {
-        let fields = [Field {
-            parameter: Field::PLACE,
-            form: FieldForm::S32x3,
-        }];
-        let format = VertexFormat::new(&fields).unwrap();
-        writer.state(&State::Format(format)).unwrap();
-        let at = writer.position();
-        let header = Header {
-            new: true,
-            ..Header::of(Id::Short, 3)
-        };
-        writer.vertices(header, &[0; 9]).unwrap();
-        at
-    });
-    refused::<Smooth>(&list, at, Id::Short, Reason::Missing(FinePlaces));
+    for id in [Id::Short, Id::Table] {
+        let (list, at) = after_a_triangle(|writer| fine_places(writer, id));
+        refused::<Smooth>(&list, at, id, Reason::Missing(FinePlaces));
+    }
     let (list, at) = after_a_triangle(|writer| {
         let header = Header {
             shade: true,
