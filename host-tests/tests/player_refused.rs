@@ -41,11 +41,6 @@ fn said<'t, L: Look<Pixel = Rgb565Be>>(
     result
 }
 
-/// Refused by a look, as this block at this offset.
-fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: Reason) {
-    refused_with::<L>(PlayerSettings::default(), list, at, block, reason);
-}
-
 /// Three vertices of a table, or of a strip, whose places have 32 bits; where they are.
 fn fine_places(writer: &mut ListWriter<'_>, id: Id) -> u32 {
     let fields = [Field {
@@ -61,6 +56,11 @@ fn fine_places(writer: &mut ListWriter<'_>, id: Id) -> u32 {
     };
     writer.vertices(header, &[0; 9]).unwrap();
     at
+}
+
+/// Refused by a look, as this block at this offset.
+fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: Reason) {
+    refused_with::<L>(PlayerSettings::default(), list, at, block, reason);
 }
 
 /// The same with settings.
