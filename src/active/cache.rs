@@ -50,6 +50,8 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) listed: [u32; WORDS],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
+    /// How many found none.
+    pub(crate) spilled_count: u16,
     /// Slots that are never used.
     unused: u16,
     /// The line whose changes were taken last.
@@ -167,6 +169,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             ring: [[0; WORDS]; RING as usize],
             blocks: [[0; WORDS]; BLOCKS as usize],
             spilled: Link::EMPTY,
+            spilled_count: 0,
             unused: 0,
         }
     }
@@ -185,6 +188,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.ring = [[0; WORDS]; RING as usize];
         self.blocks = [[0; WORDS]; BLOCKS as usize];
         self.spilled = Link::NONE;
+        self.spilled_count = 0;
     }
 
     /// Whether no object is active.
@@ -329,11 +333,19 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             *link = at;
         }
         self.relink(before, new, links);
+        self.spilled_count += 1;
+    }
+
+    /// Takes out what found no slot and comes after `before`, or first; `after` comes after it.
+    #[inline(always)]
+    pub(crate) fn take_spilled(&mut self, before: Link, after: Link, links: &mut [Link]) {
+        self.relink(before, after, links);
+        self.spilled_count -= 1;
     }
 
     /// Lets what comes after `before`, or first, be `to`.
     #[inline(always)]
-    pub(crate) fn relink(&mut self, before: Link, to: Link, links: &mut [Link]) {
+    fn relink(&mut self, before: Link, to: Link, links: &mut [Link]) {
         if !before.is_some() {
             self.spilled = to;
         } else if let Some(link) = links.get_mut(usize::from(before.object())) {
@@ -446,7 +458,7 @@ mod tests {
                 Ok(at) => {
                     let link = |at: usize| model.get(at).map_or(Link::NONE, |o| Link::slow(*o));
                     let before = at.checked_sub(1).map_or(Link::NONE, link);
-                    cache.relink(before, link(at + 1), &mut links);
+                    cache.take_spilled(before, link(at + 1), &mut links);
                     model.remove(at);
                 }
             }
@@ -458,6 +470,7 @@ mod tests {
             }
             assert_eq!(found, model);
             assert_eq!(cache.is_empty(), model.is_empty());
+            assert_eq!(usize::from(cache.spilled_count), model.len());
         }
         // A column of links that is too short loses objects, and nothing else.
         let mut cache = Cache::<(), 1>::with(());

@@ -38,7 +38,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             (fetcher.forget)(self);
         }
         self.cache.clear();
-        (self.met, self.dense) = (false, false);
+        self.met = false;
         self.content = Some(view.content);
         self.next = view.first;
     }
@@ -131,7 +131,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 break;
             };
             let number = self.cache.spilled.object();
-            self.cache.spilled = next(self.links, self.cache.spilled);
+            let after = next(self.links, self.cache.spilled);
+            self.cache.take_spilled(Link::NONE, after, self.links);
             self.counts.moved_in += 1;
             if let Some(object) = view.objects.get(usize::from(number)) {
                 made += self.take_in(view, slot, number, object, line);

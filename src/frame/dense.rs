@@ -6,7 +6,7 @@
 //! drawn in parts.
 
 use super::alone::{Alone, set_up_stray};
-use super::guests::{CELLS, Stray, Walk};
+use super::guests::{Stray, Walk};
 use super::near::{drawn_in, number_of};
 use super::renderer::Renderer;
 use super::rival::{Rival, rival_of};
@@ -119,17 +119,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         let mut walk = Walk::of(self.cache.spilled);
-        let mut guests = 0usize;
+        let mut guests = 0;
         while let Some(stray) = self.next_stray(&mut walk, out) {
             guests += 1;
             if stray.span.meets(part.columns) {
                 part.deepen(stray.rival(stray.slope::<L>(out)));
             }
         }
-        if part.columns.start == 0 {
-            // Below half of what cells hold of sorted ones, sorting is cheaper again.
-            self.dense = 2 * CELLS * guests > part.cells.len();
-            self.counts.misses += if self.crowded { guests as u32 } else { 0 };
+        if self.crowded && part.columns.start == 0 {
+            self.counts.misses += guests;
         }
     }
 

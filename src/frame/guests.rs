@@ -14,6 +14,7 @@ use crate::link::Link;
 use crate::look::Look;
 use crate::span::Triangle;
 use crate::visible::Mask;
+use core::mem::take;
 
 /// A span of what has no slot, as it lies in the cells of depth: `CELLS` of them.
 #[derive(Clone, Copy)]
@@ -24,15 +25,16 @@ pub(super) struct Guest {
 }
 
 /// Cells of depth that a guest takes.
-pub(super) const CELLS: usize = 5;
+pub(super) const CELLS: usize = 4;
 
 impl Guest {
     #[inline(always)]
     pub(super) fn of(cells: &[u32], number: usize) -> Option<Self> {
         let cells = cells.get(CELLS * number..CELLS * (number + 1));
-        let &[key, object, span, at, step] = cells? else {
+        let &[key, object, span, step] = cells? else {
             return None;
         };
+        let at = key.wrapping_sub(step.wrapping_mul(object >> 16));
         let rival = Rival {
             span: Span::of(span),
             slope: Slope { at, step },
@@ -46,33 +48,37 @@ impl Guest {
         Self { key, rival }
     }
 
-    /// Puts it into its place among so many, whose keys fall.
+    /// Puts it into its place among so many, whose keys fall, where there are enough cells.
     #[inline(always)]
     fn insert(self, cells: &mut [u32], count: usize) {
-        let mut at = count;
-        while at > 0 {
-            let before = CELLS * (at - 1);
-            if cells.get(before).is_none_or(|&key| key >= self.key) {
-                break;
+        let mut cells = cells.get_mut(..CELLS * (count + 1)).unwrap_or_default();
+        while let Some((before, to)) = take(&mut cells).split_last_chunk_mut() {
+            match before.last_chunk::<CELLS>() {
+                Some(from) if from[0] < self.key => *to = *from,
+                _ => {
+                    *to = self.cells();
+                    break;
+                }
             }
-            if let Some(two) = cells.get_mut(before..before + 2 * CELLS) {
-                two.copy_within(..CELLS, CELLS);
-            }
-            at -= 1;
+            cells = before;
         }
-        self.keep(cells, at);
     }
 
-    /// Keeps it, where there are enough cells.
+    /// The column of its nearest depth stands for that at the first of all, as its key is known.
     #[inline(always)]
-    pub(super) fn keep(self, cells: &mut [u32], number: usize) {
-        let Some(cells) = cells.get_mut(CELLS * number..CELLS * (number + 1)) else {
-            return;
+    fn cells(self) -> [u32; CELLS] {
+        let Rival {
+            span,
+            slope,
+            object,
+        } = self.rival;
+        let nearest = if slope.at(span.start) == self.key {
+            span.start
+        } else {
+            span.end - 1
         };
-        let Span { start, end } = self.rival.span;
-        let Slope { at, step } = self.rival.slope;
-        let object = u32::from(self.rival.object);
-        cells.copy_from_slice(&[self.key, object, start << 16 | end, at, step]);
+        let object = nearest << 16 | u32::from(object);
+        [self.key, object, span.start << 16 | span.end, slope.step]
     }
 }
 
@@ -193,7 +199,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let triangle = out.view.triangle_of(object)?;
             let (lines, after) = (triangle.lines(), next(self.links, walk.at));
             if lines.end <= line {
-                self.cache.relink(walk.before, after, self.links);
+                self.cache.take_spilled(walk.before, after, self.links);
                 walk.at = after;
                 continue;
             }
@@ -206,11 +212,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         None
     }
 
+    /// Whether the cells may not hold all that has no slot.
+    #[inline(always)]
+    pub(super) fn is_dense(&self) -> bool {
+        CELLS * usize::from(self.cache.spilled_count) > self.depth.len().max(FEW * CELLS)
+    }
+
     /// Draws so many slots that are sorted, and what has no slot, of which all or those on columns where spans meet are
     /// compared; how many spans met others.
     #[inline(never)]
     pub(super) fn draw_with_guests(&mut self, slots: usize, out: &mut Line<'_, '_, L>) -> usize {
-        let depth = core::mem::take(&mut self.depth);
+        let depth = take(&mut self.depth);
         let mut few = [0; FEW * CELLS];
         let cells = if depth.len() < few.len() {
             &mut few[..]
@@ -220,28 +232,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let hidden = if self.dense {
             self.draw_dense(slots, cells, out)
         } else {
-            match self.sort_guests(cells, out) {
-                Some(guests) => self.draw_field(slots, cells, guests, out),
-                None => {
-                    (self.dense, out.nearest_first) = (true, false);
-                    let slots = self.sort_slots(out);
-                    self.draw_dense(slots, cells, out)
-                }
-            }
+            let guests = self.sort_guests(cells, out);
+            self.draw_field(slots, cells, guests, out)
         };
         self.depth = depth;
         hidden
     }
 
-    /// Sorts what has no slot; how many that are, or `None` where the cells do not hold them.
+    /// Sorts what has no slot; how many that are.
     #[inline(never)]
-    fn sort_guests(&mut self, cells: &mut [u32], out: &Line<'_, '_, L>) -> Option<usize> {
-        let (mut count, room) = (0, cells.len() / CELLS);
+    fn sort_guests(&mut self, cells: &mut [u32], out: &Line<'_, '_, L>) -> usize {
+        let mut count = 0;
         let mut walk = Walk::of(self.cache.spilled);
         while let Some(stray) = self.next_stray(&mut walk, out) {
-            if count == room {
-                return None;
-            }
             // What meets nobody may come at any time: behind all others, and no two are compared.
             let is_compared = self.crowded || self.over.meets(stray.span.start, stray.span.end);
             let slope = if is_compared {
@@ -255,7 +258,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.crowded {
             self.counts.misses += count as u32;
         }
-        Some(count)
+        count
     }
 }
 
@@ -341,17 +344,19 @@ mod tests {
             },
             object: 61_439,
         };
-        let guest = Guest { key: 77, rival };
+        let key = rival.slope.at(1015);
+        let guest = Guest { key, rival };
         let mut cells = [0; 3 * CELLS - 1];
-        guest.keep(&mut cells, 1);
+        cells[0] = key;
+        guest.insert(&mut cells, 1);
         let back = Guest::of(&cells, 1).unwrap();
-        assert_eq!((back.key, back.rival.object), (77, 61_439));
+        assert_eq!((back.key, back.rival.object), (key, 61_439));
         let Slope { at, step } = back.rival.slope;
         assert_eq!((at, step), (rival.slope.at, rival.slope.step));
         assert_eq!((back.rival.span.start, back.rival.span.end), (3, 1016));
-        guest.keep(&mut cells, 2);
+        guest.insert(&mut cells, 2);
         assert!(Guest::of(&cells, 2).is_none());
-        assert_eq!(cells[..CELLS], [0; CELLS]);
+        assert_eq!(cells[..CELLS], [key, 0, 0, 0]);
         assert_eq!(cells[2 * CELLS..], [0; CELLS - 1]);
     }
 }

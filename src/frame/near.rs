@@ -261,10 +261,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws slots that are listed, and what has no slot; how many slots these are, and how many spans met others.
     #[inline(never)]
     fn draw_listed(&mut self, out: &mut Line<'_, '_, L>) -> (usize, usize) {
-        self.dense &= self.cache.spilled.is_some();
+        let has_guests = self.cache.spilled.is_some();
+        self.dense = has_guests && self.is_dense();
         out.nearest_first = out.deep && !self.dense;
         let slots = self.sort_slots(out);
-        let hidden = if self.cache.spilled.is_some() {
+        let hidden = if has_guests {
             self.draw_with_guests(slots, out)
         } else {
             self.draw_field(slots, &[], 0, out)
