@@ -6,6 +6,7 @@
 //! end cannot leave its field, so no colour ever wraps (P4).
 
 use super::lighting::Shine;
+use crate::num::mul_wide;
 
 /// Red in bits 31..21, blue in bits 20..11, green in bits 10..0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -172,8 +173,8 @@ impl Colour {
     pub fn lerp(self, other: Self, t: i64) -> Self {
         let (a, b) = (self.fields(), other.fields());
         Self::from_fields([0, 1, 2].map(|i| {
-            let (a, b) = (i64::from(a[i]), i64::from(b[i]));
-            (a + (((b - a) * t + (1 << 29)) >> 30)) as u32
+            let way = mul_wide(b[i] as i32 - a[i] as i32, t as i32);
+            a[i].wrapping_add(((way + (1 << 29)) >> 30) as u32)
         }))
     }
 }

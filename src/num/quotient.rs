@@ -23,8 +23,7 @@ pub fn divide(number: u64, by: u32) -> u32 {
     let mut quotient = 0;
     for _ in 0..black_box(2) {
         let next = low >> 16;
-        let mut digit = rest / head;
-        let mut over = rest - digit * head;
+        let (mut digit, mut over) = with_rest(rest, head);
         // Too large by 2 at most.
         while over >> 16 == 0 && (digit >> 16 != 0 || digit * tail > (over << 16 | next)) {
             digit = black_box(digit) - 1;
@@ -35,6 +34,16 @@ pub fn divide(number: u64, by: u32) -> u32 {
         quotient = quotient << 16 | digit;
     }
     quotient
+}
+
+/// `number / by` and what is left, for `by` of 2^15 to 2^16 - 1.
+#[inline(always)]
+fn with_rest(number: u32, by: u32) -> (u32, u32) {
+    if SHORT {
+        return short::divide_called(number, by);
+    }
+    let quotient = number / by;
+    (quotient, number - quotient * by)
 }
 
 /// [`divide`] of a number with a sign, rounded towards 0.

@@ -83,7 +83,7 @@ pub(super) const fn divide(n: u32, d: u32) -> (u32, u32) {
 
 /// [`divide`]: one copy for all sides of triangles.
 #[inline(never)]
-fn divide_called(n: u32, d: u32) -> (u32, u32) {
+pub(super) fn divide_called(n: u32, d: u32) -> (u32, u32) {
     divide(n, d)
 }
 

@@ -8,7 +8,7 @@
 
 use super::project::{Point, View, beyond};
 use crate::geometry::Colour;
-use crate::num::divide;
+use crate::num::{divide, mul_wide};
 use core::hint::black_box;
 use heapless::Vec;
 
@@ -150,7 +150,7 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
     let point = Point { x, y, z };
     // On the screen the same point is at t zb / z of the projected edge.
     let along = if on_screen && point.z > 0 {
-        let part = u64::from(t >> 1) * u64::from(b.z.max(0) as u32);
+        let part = mul_wide((t >> 1) as i32, b.z.max(0)) as u64;
         let z = point.z as u32;
         // Whole at most, but for what the point was rounded by.
         divide(part, z).min(1 << 29) << 1
