@@ -183,7 +183,7 @@ pub(super) struct Stray<'v> {
 const FARTHEST: u32 = 0xFFFF;
 
 /// Guests that find room where fewer cells of depth are lent.
-const FEW: usize = 16;
+const FEW: usize = 20;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What comes next of what has no slot and has pixels on the line; what has ended leaves the chain.
@@ -223,8 +223,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn draw_with_guests(&mut self, slots: usize, out: &mut Line<'_, '_, L>) -> usize {
         let depth = take(&mut self.depth);
-        let mut few = [0; FEW * CELLS];
-        let cells = if depth.len() < few.len() {
+        let mut few;
+        let cells = if depth.len() < FEW * CELLS {
+            few = [0; FEW * CELLS];
             &mut few[..]
         } else {
             &mut *depth
