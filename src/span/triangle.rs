@@ -163,8 +163,7 @@ impl Triangle<'_> {
     /// How the sides are evaluated.
     #[inline(always)]
     pub(crate) fn way(&self) -> Way {
-        let (area, far) = (self.area(), self.reach());
-        self.way_of(self.size_of(area, far), far)
+        self.way_of(self.reach())
     }
 
     /// How planes are made; `area` is the triangle's.
@@ -238,7 +237,7 @@ impl Triangle<'_> {
     pub(crate) fn enter(&self, line: u16, sides: &mut Sides) -> Entry {
         let (area, far) = (self.area(), self.reach());
         let size = self.size_of(area, far);
-        let way = self.way_of(size, far);
+        let way = self.way_of(far);
         *sides = if way == Way::PLAIN {
             self.plain_sides(false)
         } else {
@@ -312,13 +311,12 @@ impl Triangle<'_> {
         }
     }
 
-    /// How the sides are evaluated.
+    /// How the sides are evaluated, by the farthest way from the first corner.
     #[inline(always)]
-    fn way_of(&self, size: Size, far: i32) -> Way {
+    fn way_of(&self, far: i32) -> Way {
         let x = (self.place(0) & 0xFFFF) as i32 - 8 * ORIGIN;
-        // Tiny and small triangles have short sides.
-        let is_short = matches!(size, Size::Tiny | Size::Sharp | Size::Small);
-        if is_short && (x - far) | (8 * self.frame.width - x - far) >= 0 {
+        // Below 256 units no side is longer than 511 either way.
+        if far < 256 && (x - far) | (8 * self.frame.width - x - far) >= 0 {
             return Way::PLAIN;
         }
         self.way_of_any()
