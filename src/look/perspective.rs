@@ -32,7 +32,7 @@ use super::bent::copy_arc;
 use super::fetch::{Uv, Way, copy_exact, copy_from, packed_on, packed_step};
 use super::stride::{Range, Reach, reach};
 use crate::num::{few_leading_zeros, leading_zeros, mul_17, mul_high, recip_16};
-use crate::scene::{Bent, Budget, Square, Texture, Wrap};
+use crate::scene::{Bent, Budget, Form, Square, Texture};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
 ///
@@ -201,11 +201,13 @@ impl Perspective {
     /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
     pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, log: u32) {
-        let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
-        match (square, log) {
+        let side = texture.repeated();
+        match (texture.form, log) {
             (_, 3..) => self.any(run, within, texture, log),
-            (Some(square), _) => self.few(run, within, Rows::of(square), log),
-            (None, _) => self.singly(run, within, texture),
+            (Form::Words(texels), _) if side > 0 => {
+                self.few(run, within, Rows { texels, log: side }, log);
+            }
+            _ => self.singly(run, within, texture),
         }
     }
 
@@ -441,14 +443,7 @@ struct Rows<'t> {
     log: u32,
 }
 
-impl<'t> Rows<'t> {
-    fn of(square: Square<'t>) -> Self {
-        Self {
-            texels: square.texels(),
-            log: square.log(),
-        }
-    }
-
+impl Rows<'_> {
     /// The texel at a place.
     #[inline(always)]
     fn texel(self, at: Uv) -> u16 {

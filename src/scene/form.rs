@@ -53,18 +53,7 @@ impl Bent<'_> {
     }
 }
 
-impl<'t> Square<'t> {
-    /// The texels, row by row.
-    #[inline(always)]
-    pub(crate) const fn texels(self) -> &'t [u16] {
-        match self {
-            Self::Side32(t) => t.as_flattened(),
-            Self::Side64(t) => t.as_flattened(),
-            Self::Side128(t) => t.as_flattened(),
-            Self::Side256(t) => t.as_flattened(),
-        }
-    }
-
+impl Square<'_> {
     /// The power of two that its side is.
     #[inline(always)]
     pub(crate) const fn log(self) -> u32 {
