@@ -35,21 +35,13 @@ const fn raised(steps: [u16; 3]) -> Raised {
     raised
 }
 
-/// What a format raises by, and by how much at most.
-struct Table<F>(core::marker::PhantomData<F>);
-
-impl<F: PixelFormat> Table<F> {
-    const RAISED: Raised = raised(F::STEPS);
-    const MOST: [i32; 3] = all_parts_of(15, F::STEPS);
-}
-
 /// Colours a run; `course` is at its span's first pixel.
 #[inline(never)]
 pub(super) fn fill<F: PixelFormat>(course: Course, place: Place, run: &mut [F::Word]) {
-    if !course.keeps(Table::<F>::MOST, place.pixels()) {
+    if !course.keeps(const { all_parts_of(15, F::STEPS) }, place.pixels()) {
         return fill_held::<F>(course, place, run);
     }
-    let raised = &const { Table::<F>::RAISED }[place.line as usize & 3];
+    let raised = &const { raised(F::STEPS) }[place.line as usize & 3];
     let mut column = place.column;
     if course.is_even() {
         return fill_even::<F>(run, course.pair(), raised, column);
@@ -147,9 +139,10 @@ mod tests {
                 ends[0][rng.below(3) as usize] = [0, 300, 0xFF00, 0xFFFF][rng.below(4) as usize];
             }
             let course = between(ends, pixels);
+            let most = all_parts_of(15, Rgb565::STEPS);
             (even, held) = (
                 even + usize::from(course.is_even()),
-                held + usize::from(!course.keeps(Table::<Rgb565>::MOST, pixels)),
+                held + usize::from(!course.keeps(most, pixels)),
             );
             let at = |column: u32| place(start, start + pixels, column, line);
             let mut whole = [0u16; 70];

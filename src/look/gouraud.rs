@@ -291,11 +291,10 @@ pub(super) fn wide_shades(triangle: &Triangle<'_>, planes: &mut Planes) -> Fill 
 /// Planes of a thin triangle on one line, for [`Fill::Wide`].
 pub(super) fn thin_shades(span: &ThinSpan<'_>, planes: &mut Planes) {
     let corners = span.triangle.vertex.map(|v| wide_fields(v.colour));
-    let mut three = [[0; 3]; 3];
-    for (i, to) in three.iter_mut().enumerate() {
+    let three = [0, 1, 2].map(|i| {
         let [at, step] = span.line(corners.map(|c| i64::from(c[i])));
-        *to = [at, step, 0];
-    }
+        [at, step, 0]
+    });
     keep_wide(three, planes);
 }
 

@@ -95,16 +95,10 @@ fn halvings(most: u32, least: u32) -> u32 {
 static ROOTS: [u8; 16] = [1, 1, 2, 2, 4, 5, 8, 11, 16, 22, 32, 45, LONGEST, 0, 0, 0];
 
 /// `floor(2^(i / 3))`.
-static CUBE_ROOTS: [u8; 32] = {
-    let mut roots = [LONGEST; 32];
-    let first = [1, 1, 1, 2, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50];
-    let mut i = 0;
-    while i < first.len() {
-        roots[i] = first[i];
-        i += 1;
-    }
-    roots
-};
+static CUBE_ROOTS: [u8; 32] = [
+    1, 1, 1, 2, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50, LONGEST, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0,
+];
 
 /// The longest arc by the power of two of a texture's side. A place in one word has `16 - log` fraction bits; its second
 /// difference is off by half of the last, so `n` steps are off by `n^2 / 16` of it in the middle, and steps by `n / 4`.
