@@ -310,7 +310,24 @@ impl Mapping {
                     copy_exact(run, texture, way.skip(place.within().skipped));
                 }
             }
-            Method::Perspective => self.draw_perspective(run, place, texture, budget),
+            Method::Perspective => {
+                let (span, within) = (self.span(place), place.within());
+                let mut reach = self.reach;
+                let steps = within.pixels.saturating_sub(1);
+                // Far from the triangle's nearest corner they may be further apart: long spans repay the question.
+                if steps > (8 * usize::from(reach.line)).max(24) && steps > usize::from(reach.arc) {
+                    reach = span.reach(within.pixels, budget, texture.repeated());
+                }
+                if reach.arc > 0 {
+                    if let Some(square) = texture.bent() {
+                        return span.arcs(run, within, square, reach.arc);
+                    }
+                }
+                if !budget.is_coarse() {
+                    reach.line = reach.line.min(4);
+                }
+                span.draw(run, within, texture, stride_within(reach.line));
+            }
         }
     }
 
@@ -334,32 +351,6 @@ impl Mapping {
             place,
         };
         (sampling.draw)(&span, run);
-    }
-
-    #[inline(always)]
-    fn draw_perspective(
-        &self,
-        run: &mut [u16],
-        place: Place,
-        texture: &Texture<'_>,
-        budget: Budget,
-    ) {
-        let (span, within) = (self.span(place), place.within());
-        let mut reach = self.reach;
-        let steps = within.pixels.saturating_sub(1);
-        // Far from the triangle's nearest corner they may be further apart: long spans repay the question.
-        if steps > (8 * usize::from(reach.line)).max(24) && steps > usize::from(reach.arc) {
-            reach = span.reach(within.pixels, budget, texture.repeated());
-        }
-        if reach.arc > 0 {
-            if let Some(square) = texture.bent() {
-                return span.arcs(run, within, square, reach.arc);
-            }
-        }
-        if !budget.is_coarse() {
-            reach.line = reach.line.min(4);
-        }
-        span.draw(run, within, texture, stride_within(reach.line));
     }
 }
 

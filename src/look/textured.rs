@@ -148,58 +148,16 @@ impl<F: Texel> Textured<F> {
 
     /// Planes of the shade: how they are evaluated; `None` in full light.
     #[inline(always)]
-    fn set_up_shade(
-        triangle: &Triangle<'_>,
-        size: Size,
-        area: u32,
-        planes: &mut Shades,
-    ) -> Option<Fill> {
-        let colour = triangle.vertex.map(|v| v.colour);
+    fn set_up_shade(of: &Primitive<'_>, planes: &mut Shades) -> Option<Fill> {
+        let colour = of.triangle.vertex.map(|v| v.colour);
         if is_even(colour) {
             return even_shade(colour[0], planes);
         }
-        let is_small = matches!(size, Size::Tiny | Size::Small);
-        if is_small && shade_planes(&triangle.shares(area), colour, planes) {
+        let is_small = matches!(of.size, Size::Tiny | Size::Small);
+        if is_small && shade_planes(&of.triangle.shares(of.area), colour, planes) {
             return Some(Fill::Small);
         }
-        Some(wide_shades(triangle, planes))
-    }
-
-    /// [`set_up`](Look::set_up) of values in registers.
-    #[inline(never)]
-    fn set_up_all(
-        triangle: &Triangle<'_>,
-        object: u16,
-        size: Size,
-        area: u32,
-        draws: &Draws<'_>,
-        planes: &mut Planes,
-    ) -> Fill {
-        planes.draw = draws.number_of(object);
-        planes.shaded = Self::set_up_shade(triangle, size, area, &mut planes.shade);
-        planes.mapped = false;
-        planes.mapping.quick = 0;
-        planes.mapping.reach = Reach::NONE;
-        let mut is_plain = false;
-        let mut thin = planes.shaded == Some(Fill::Thin);
-        let state = draws.states.get(usize::from(planes.draw));
-        if let Some((texture, budget)) = state.and_then(DrawState::texture) {
-            let places = triangle.textures();
-            let near = Near::new(triangle.vertex, &places);
-            if let Some(plane) = near.word_plane(texture, texture.spare, budget) {
-                planes.mapping.method = Method::Word;
-                planes.mapping.planes[0] = plane;
-                planes.mapped = true;
-                is_plain = state.and_then(DrawState::square).is_some();
-            } else {
-                thin |= Self::set_up_mapping(triangle, texture, budget, planes);
-            }
-        }
-        match planes.shaded {
-            _ if thin => Fill::Thin,
-            None | Some(Fill::Small) if is_plain => Fill::Plain,
-            _ => Fill::Wide,
-        }
+        Some(wide_shades(of.triangle, planes))
     }
 
     /// The mapping of a triangle that [`Near`] does not serve at once; whether the triangle is too thin for planes.
@@ -366,9 +324,34 @@ impl<F: Texel> Look for Textured<F> {
     const TEXTURED: bool = true;
     const SCALE: Scale = Scale::SHADE;
 
-    #[inline(always)]
+    #[inline(never)]
     fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
-        Self::set_up_all(of.triangle, of.object, of.size, of.area, of.draws, planes)
+        let (triangle, draws) = (of.triangle, of.draws);
+        planes.draw = draws.number_of(of.object);
+        planes.shaded = Self::set_up_shade(of, &mut planes.shade);
+        planes.mapped = false;
+        planes.mapping.quick = 0;
+        planes.mapping.reach = Reach::NONE;
+        let mut is_plain = false;
+        let mut thin = planes.shaded == Some(Fill::Thin);
+        let state = draws.states.get(usize::from(planes.draw));
+        if let Some((texture, budget)) = state.and_then(DrawState::texture) {
+            let places = triangle.textures();
+            let near = Near::new(triangle.vertex, &places);
+            if let Some(plane) = near.word_plane(texture, texture.spare, budget) {
+                planes.mapping.method = Method::Word;
+                planes.mapping.planes[0] = plane;
+                planes.mapped = true;
+                is_plain = state.and_then(DrawState::square).is_some();
+            } else {
+                thin |= Self::set_up_mapping(triangle, texture, budget, planes);
+            }
+        }
+        match planes.shaded {
+            _ if thin => Fill::Thin,
+            None | Some(Fill::Small) if is_plain => Fill::Plain,
+            _ => Fill::Wide,
+        }
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &Draws<'_>, planes: &mut Planes) {
