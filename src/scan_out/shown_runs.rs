@@ -16,13 +16,13 @@ use bytemuck::NoUninit;
 #[derive(Debug)]
 pub struct ShownRuns<'m> {
     /// Hashes of the row of cells that is drawn, so far.
-    sums: &'m mut [u32],
+    pub(super) sums: &'m mut [u32],
     /// Of each cell, row by row, 0 where nobody knows what is shown.
     hashes: &'m mut [u32],
     columns: u16,
     lines: u16,
     /// Rows of cells from the top that an unfinished frame may have changed.
-    unfinished: usize,
+    pub(super) unfinished: usize,
 }
 
 impl<'m> ShownRuns<'m> {
@@ -70,11 +70,6 @@ impl<'m> ShownRuns<'m> {
         self.sums.fill(0);
     }
 
-    /// The frame has arrived.
-    pub(super) fn finished(&mut self) {
-        self.unfinished = 0;
-    }
-
     /// Takes in a line of the row of cells, which begins at column `x`, the left edge of a cell.
     pub(super) fn add_line<W: NoUninit>(&mut self, x: u16, pixels: &[W]) {
         let cells = pixels.chunks(self.columns.into());
@@ -112,10 +107,5 @@ impl<'m> ShownRuns<'m> {
         let start = cells.find(|&start| changed(start))?;
         let end = cells.find(|&end| !changed(end)).unwrap_or(width);
         Some(start..end)
-    }
-
-    /// Begins the next row of cells.
-    pub(super) fn next_row(&mut self) {
-        self.sums.fill(0);
     }
 }

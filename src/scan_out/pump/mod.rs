@@ -183,8 +183,6 @@ impl<D: ScanoutDma> Pump<D> {
         }
         self.in_parts = false;
         self.band_first = 0;
-        self.band_filled = 0;
-        self.handed = false;
         Ok(band_lines)
     }
 
@@ -447,11 +445,8 @@ impl<D: ScanoutDma> Pump<D> {
                 done => done?,
             }
         }
-        if self.open {
-            self.open = false;
-            // The frame is given up, so the sink may well find that lines are missing.
-            let _ = self.dma.end();
-        }
+        // The frame is given up, so the sink may well find that lines are missing.
+        let _ = self.close_part();
         Ok(())
     }
 

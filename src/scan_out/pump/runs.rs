@@ -140,7 +140,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         if line < self.window.height {
             return Err(ScanError::LinesMissing { line });
         }
-        self.shown.finished();
+        self.shown.unfinished = 0;
         Ok(())
     }
 
@@ -183,7 +183,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
         }
         let bytes = unsent as u64 * size_of::<WordOf<D>>() as u64;
         self.pump.stats.bytes_unsent = self.pump.stats.bytes_unsent.wrapping_add(bytes);
-        self.shown.next_row();
+        self.shown.sums.fill(0);
         self.first += self.drawn;
         self.drawn = 0;
         if self.packed.height.saturating_add(row.height) > self.band_lines {
