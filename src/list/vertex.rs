@@ -204,13 +204,8 @@ impl Slot {
             bytes(FieldForm::S8x3, next, end, |f| of(FieldForm::S8x3, f));
             return;
         }
-        let mut place = at;
-        let next = || {
-            let word = words.word(place);
-            place = place.wrapping_add(1);
-            word
-        };
-        column(self.form, next, out, of);
+        let mut rest = (0..).map(|n| words.word(at.wrapping_add(n)));
+        column(self.form, || rest.next().unwrap_or(0), out, of);
     }
 
     /// The column itself, where it lies in one piece and is of this type: `[T; 3]` for each.
@@ -245,12 +240,10 @@ fn column<T>(
     of: impl Fn(FieldForm, [i32; 3]) -> T,
 ) {
     const TEN: FieldForm = FieldForm::S10x3;
-    const HALVES: FieldForm = FieldForm::S16x3;
-    const WORDS: FieldForm = FieldForm::S32x3;
     match form {
         FieldForm::U8x3 | FieldForm::S8x3 => bytes(form, next, out, |f| of(form, f)),
-        HALVES => {
-            let value = |words| of(HALVES, fields(HALVES, words));
+        FieldForm::S16x3 => {
+            let value = |words| of(form, fields(form, words));
             for pair in out.chunks_mut(2) {
                 let (a, b) = (next(), next());
                 if let [first, rest @ ..] = pair {
@@ -262,7 +255,7 @@ fn column<T>(
                 }
             }
         }
-        WORDS => out.fill_with(|| of(WORDS, fields(WORDS, [next(), next(), next()]))),
+        FieldForm::S32x3 => out.fill_with(|| of(form, fields(form, [next(), next(), next()]))),
         TEN => out.fill_with(|| of(TEN, fields(TEN, [next(), 0, 0]))),
         FieldForm::U8x4 | FieldForm::U16x2 | FieldForm::U32x1 => {
             out.fill_with(|| of(form, fields(form, [next(), 0, 0])));

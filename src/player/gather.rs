@@ -268,16 +268,8 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         put(self.places, base, places);
         self.strip.corners = [0, 1, 2];
         self.vertices = strip.have.into();
-        if matches!(
-            self.kind,
-            Kind::Run {
-                faces: RunFaces::QuadStrip(_),
-                ..
-            }
-        ) {
-            // Behind the kept two the strip goes on; its split is chosen by its parity.
-            self.kind = Kind::Nothing;
-        }
+        // Behind those a strip of quads goes on with a split that is chosen by its parity.
+        self.kind = Kind::Nothing;
     }
 
     /// Appends indices, for which there is room.

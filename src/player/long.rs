@@ -34,12 +34,8 @@ impl LongStrip {
         if header.new {
             self.strip.restart();
         }
-        let mut at = run.at;
-        let mut next = || {
-            let word = words.word(at);
-            at = at.wrapping_add(1);
-            word
-        };
+        let mut rest = (0..).map(|n| words.word(run.at.wrapping_add(n)));
+        let mut next = || rest.next().unwrap_or(0);
         let mut faces: Vec<[ScreenCorner; 3], AT_ONCE> = Vec::new();
         let mut alphas: Vec<[u8; 3], AT_ONCE> = Vec::new();
         for _ in 0..header.count {
