@@ -40,13 +40,8 @@ pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
     }) as u32
 }
 
-/// Whether all slices agree and all indices exist.
-pub(crate) fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
-    check_known(mesh, false)
-}
-
-/// The same, of indices only where these are not looked at later.
-pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, are_late: bool) -> Result<(), MeshError> {
+/// Whether all slices agree and all indices exist, of which those that are looked at later are not looked at.
+pub(crate) fn check<C>(mesh: &Mesh<'_, C>, are_late: bool) -> Result<(), MeshError> {
     let count = mesh.positions.len();
     let fits = |len: usize| len == 0 || len == count;
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
@@ -144,12 +139,15 @@ mod tests {
     const PLACES: [[i16; 3]; 4] = [[0; 3]; 4];
 
     fn checked(faces: Faces<'_>) -> Result<(), MeshError> {
-        check(&Mesh {
-            positions: &PLACES,
-            normals: &[],
-            colours: &[],
-            faces,
-        })
+        check(
+            &Mesh {
+                positions: &PLACES,
+                normals: &[],
+                colours: &[],
+                faces,
+            },
+            false,
+        )
     }
 
     /// Kills: sides in the other order; more bits than products hold, and fewer than small faces have.
@@ -234,12 +232,15 @@ mod tests {
             (0, 5, false),
             (4, 3, false),
         ] {
-            let result = check(&Mesh {
-                positions: &PLACES,
-                normals: &[[0; 3]; 5][..normals],
-                colours: &[[0; 3]; 5][..colours],
-                faces: Faces::Triangles(&[]),
-            });
+            let result = check(
+                &Mesh {
+                    positions: &PLACES,
+                    normals: &[[0; 3]; 5][..normals],
+                    colours: &[[0; 3]; 5][..colours],
+                    faces: Faces::Triangles(&[]),
+                },
+                false,
+            );
             let want = if is_good {
                 Ok(())
             } else {

@@ -58,6 +58,16 @@ pub struct Mesh<'a, C = i16> {
     pub faces: Faces<'a>,
 }
 
+impl<C> Mesh<'_, C> {
+    /// Nothing.
+    pub(crate) const EMPTY: Self = Self {
+        positions: &[],
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&[]),
+    };
+}
+
 /// Where a vertex lies, in Q1.30; the middle, where there is none.
 #[inline(always)]
 pub(crate) fn place_of<C: Coordinate>(positions: &[[C; 3]], i: usize) -> [i32; 3] {

@@ -23,7 +23,7 @@ pub use camera::{Camera, CameraError, Screen, ScreenError};
 pub(crate) use colour::Tint;
 pub use colour::{Colour, Scale};
 pub use faces::{Cull, MeshError};
-pub(crate) use faces::{check, check_known as check_mesh, each_triangle, face_normal, triangles};
+pub(crate) use faces::{check, each_triangle, face_normal, triangles};
 pub use light::Light;
 pub(crate) use lighting::LampsInModel;
 pub use lighting::{DirectionalLight, Lighting, Material};

@@ -78,16 +78,6 @@ impl core::fmt::Display for ShadowRoom {
     }
 }
 
-/// The sides of a shadow volume, in coordinates of model space by 2^-reach, Q1.30.
-#[derive(Debug)]
-pub(crate) struct Sides<'m> {
-    /// The silhouette, by the first corner of an edge.
-    pub(crate) edges: &'m [ShadowEdge],
-    /// Two of each edge's first corner: that itself, and the one it casts its shadow to.
-    pub(crate) positions: &'m [[i32; 3]],
-    pub(crate) faces: &'m [[u16; 3]],
-}
-
 /// How a mesh is drawn out: model space to that of the volume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extrusion {
@@ -153,7 +143,7 @@ impl Extrusion {
         &self,
         mesh: &Mesh<'_, C>,
         memory: &'m mut ShadowMemory<'_>,
-    ) -> Result<Sides<'m>, ShadowRoom> {
+    ) -> Result<ShadowMemory<'m>, ShadowRoom> {
         let edges = self.silhouette(mesh, memory.edges)?;
         let count = edges.len();
         let positions = memory.positions.get_mut(..2 * count);
@@ -171,7 +161,7 @@ impl Extrusion {
             faces[2 * i] = [b, a, a + 1];
             faces[2 * i + 1] = [b, a + 1, b + 1];
         }
-        Ok(Sides {
+        Ok(ShadowMemory {
             edges,
             positions,
             faces,

@@ -100,12 +100,7 @@ impl Default for PlayerSettings<'_, '_> {
     /// White, not lit, faces from behind dropped, no camera of its own.
     fn default() -> Self {
         Self {
-            draw: Draw::new(Mesh {
-                positions: &[],
-                normals: &[],
-                colours: &[],
-                faces: crate::geometry::Faces::Triangles(&[]),
-            }),
+            draw: Draw::new(Mesh::EMPTY),
             camera: false,
             window: None,
             budget: Budget::BALANCED,

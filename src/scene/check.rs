@@ -1,7 +1,7 @@
 //! What is wrong with a draw call, before anything of it is drawn.
 
 use super::{Draw, DrawError, Shading};
-use crate::geometry::{Coordinate, Faces, MeshError, check_mesh};
+use crate::geometry::{Coordinate, Faces, MeshError, check};
 
 /// Whether there are as many alphas as vertices, or none.
 pub(super) fn check_alphas(alphas: &[u8], vertices: usize) -> Result<(), DrawError> {
@@ -27,7 +27,7 @@ pub(super) fn check_draw<C: Coordinate>(
     let is_filed_at_once = draw.shading == Shading::Smooth && draw.shadow.is_none();
     // Indices of triangles are looked at on the way.
     let are_late = is_filed_at_once && matches!(mesh.faces, Faces::Triangles(_));
-    check_mesh(mesh, are_late).map_err(DrawError::Mesh)?;
+    check(mesh, are_late).map_err(DrawError::Mesh)?;
     let at_corners = draw.light.is_some() || draw.lights.is_some() || !mesh.colours.is_empty();
     if draw.lamps.is_some() && (at_corners || !lit_at_pixels) {
         return Err(DrawError::Light);

@@ -36,14 +36,6 @@ pub struct ScreenCorner {
     pub texel: [i32; 2],
 }
 
-/// What a draw call of no mesh brings.
-const EMPTY: Mesh<'static, i16> = Mesh {
-    positions: &[],
-    normals: &[],
-    colours: &[],
-    faces: Faces::Triangles(&[]),
-};
-
 /// Refuses what would bound a shadow volume, and alphas that are not as many as vertices.
 fn check_flat<C>(draw: &Draw<'_, '_, C>, vertices: usize) -> Result<(), DrawError> {
     if draw.is_volume() {
@@ -67,7 +59,7 @@ impl<'t, L> Scene<'_, 't, L> {
         check_flat(draw, 3 * faces.len())?;
         let is_flat = draw.shading == Shading::Flat;
         let draw = Draw {
-            mesh: EMPTY,
+            mesh: Mesh::EMPTY,
             light: None,
             lights: None,
             texgen: None,

@@ -90,7 +90,7 @@ impl<'t, L> Scene<'_, 't, L> {
         mut memory: ShadowMemory<'_>,
     ) -> Result<(), DrawError> {
         let camera = self.camera.ok_or(DrawError::NotBegun)?;
-        check(mesh).map_err(DrawError::Mesh)?;
+        check(mesh, false).map_err(DrawError::Mesh)?;
         let shadow = Some(Shadow::Volume(light.light));
         self.check_shadow(shadow, 0)?;
         if self.master.leaves_out(shadow) {
@@ -105,9 +105,8 @@ impl<'t, L> Scene<'_, 't, L> {
             shadow,
             ..Draw::new(Mesh {
                 positions: sides.positions,
-                normals: &[],
-                colours: &[],
                 faces: Faces::Triangles(sides.faces),
+                ..Mesh::EMPTY
             })
         };
         let view = View::new(&camera, self.screen, model);
@@ -116,7 +115,7 @@ impl<'t, L> Scene<'_, 't, L> {
             // Where the mesh that casts the shadow has them, to the bit: what is between its border and the volume's would be
             // in shadow or in light by mistake.
             let near = scene.shared(pass).iter_mut().step_by(2);
-            for (vertex, edge) in near.zip(sides.edges) {
+            for (vertex, edge) in near.zip(&*sides.edges) {
                 let [corner, _] = edge.directed();
                 let point = view.point_of(mesh.positions, corner.into());
                 if view.beyond(point) == 0 {
