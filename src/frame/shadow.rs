@@ -59,7 +59,7 @@ impl Lights {
 fn receives(state: &DrawState<'_>) -> Receives {
     Receives {
         passes: state.depth.colour_if,
-        is_shadowed: matches!(state.role(), Role::Shadowed(_)),
+        is_shadowed: matches!(state.role, Role::Shadowed(_)),
         is_once: state.blend.is_some_and(|blend| blend.is_translucent()),
     }
 }
@@ -99,7 +99,7 @@ pub(super) fn count_shadowed<L: Look>(
         }
         pixels.seen += (seen & opaque_of::<L>(ruled, first, part, out)).count_ones();
     });
-    match state.role() {
+    match state.role {
         Role::Front(_) | Role::Back(_) => figures.add_volume(pixels.all),
         _ => figures.add_span(pixels, false),
     }
@@ -142,7 +142,7 @@ fn take<L: Look>(
         };
         let (first, last) = (slope.at(run.start), slope.at(run.end - 1));
         // What a face may be off by is inside.
-        let (change, first) = match state.role() {
+        let (change, first) = match state.role {
             Role::Front(_) => (u8::MAX, first.wrapping_add(inexact)),
             Role::Back(_) => (1, first.wrapping_sub(inexact.min(first).min(last))),
             _ => (0, first),
@@ -222,7 +222,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             while let Some(i) = self.next_with_values(word, &mut others) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
                 let state = out.view.state_of(slot);
-                let role = state.map_or(Role::None, |state| state.role());
+                let role = state.map_or(Role::None, |state| state.role);
                 if let Some(step) = step_of(role) {
                     lights = lights.with(role);
                     deepen::<L>(slot, out.view);
@@ -236,10 +236,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut at = self.first_spilled();
         while let Some(found) =
-            self.spilled_of(at, out.view, &|state| lights.with(state.role()) != lights)
+            self.spilled_of(at, out.view, &|state| lights.with(state.role) != lights)
         {
             if self.spilled_stray(found.at, out).is_some() {
-                lights = lights.with(found.state.role());
+                lights = lights.with(found.state.role);
             }
             at = self.after(found.at);
         }
@@ -272,7 +272,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The first of what has no slot that is of a step, from `at` on.
     fn next_of_step<'v>(&self, at: Spilled, step: Step, view: &View<'v>) -> Option<Found<'v>> {
-        self.spilled_of(at, view, &|state| step_of(state.role()) == Some(step))
+        self.spilled_of(at, view, &|state| step_of(state.role) == Some(step))
     }
 
     fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
@@ -303,7 +303,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(stray) = self.spilled_stray(found.at, out) else {
             return;
         };
-        match state.role() {
+        match state.role {
             Role::Front(_) | Role::Back(_) => alone.darken(&stray),
             _ => set_up_stray::<L>(&stray, alone, &mut self.counts, out),
         }

@@ -192,7 +192,7 @@ impl<F: Texel> Textured<F> {
     #[inline(always)]
     pub(super) fn texels(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
         let state = planes.state(draws);
-        if let Some(square) = state.and_then(DrawState::square) {
+        if let Some(square) = state.and_then(|state| state.square) {
             // Without a mapping none is short enough.
             if planes.mapping.draw_short(run, place, square) {
                 return;
@@ -342,7 +342,7 @@ impl<F: Texel> Look for Textured<F> {
                 planes.mapping.method = Method::Word;
                 planes.mapping.planes[0] = plane;
                 planes.mapped = true;
-                is_plain = state.and_then(DrawState::square).is_some();
+                is_plain = state.and_then(|state| state.square).is_some();
             } else {
                 thin |= Self::set_up_mapping(triangle, texture, budget, planes);
             }
@@ -376,7 +376,7 @@ impl<F: Texel> Look for Textured<F> {
 
     #[inline(always)]
     fn fill_plain(planes: &Planes, place: Place, draws: States<'_>, run: &mut [u16]) {
-        let Some(square) = planes.state(draws).and_then(DrawState::square) else {
+        let Some(square) = planes.state(draws).and_then(|state| state.square) else {
             return;
         };
         let plane = planes.mapping.planes[0];

@@ -142,7 +142,7 @@ impl Form<'_> {
 }
 
 /// Alphas that a record has.
-const A_RECORD: usize = 8;
+pub(super) const A_RECORD: usize = 8;
 
 /// Where the vertices of a call have their alphas.
 #[derive(Clone, Copy, Debug)]
@@ -178,11 +178,6 @@ impl Alphas {
             u16::from(bytes[vertex % A_RECORD]) << 8
         })
     }
-}
-
-/// Records that so many alphas take.
-pub(super) const fn records(alphas: usize) -> usize {
-    alphas.div_ceil(A_RECORD)
 }
 
 /// A record: on no line.

@@ -233,7 +233,7 @@ impl<'t, L> Scene<'_, 't, L> {
         if pass.texels.is_some() && self.places.len() < pass.base + count {
             return false;
         }
-        let records = alpha::records(pass.alphas.len());
+        let records = pass.alphas.len().div_ceil(alpha::A_RECORD);
         let room = self.vertices.append(count + records);
         let Some(records) = room.and_then(|room| room.get_mut(count..)) else {
             return false;

@@ -234,14 +234,14 @@ pub struct DrawState<'t> {
     pub(crate) has_mask: bool,
     pub(crate) priority: u8,
     /// What it has to do with shadows.
-    role: Role,
+    pub(crate) role: Role,
     /// The colour that light at pixels falls on, and that light.
     pub(crate) colour: [u8; 3],
     pub(crate) lamps: Option<&'t PixelLamps>,
     /// What transparent texels are, if there may be any.
     pub(crate) holes: Option<Holes>,
     /// The texture's rows, if it is one of the squares that have loops of their own.
-    square: Option<Square<'t>>,
+    pub(crate) square: Option<Square<'t>>,
 }
 
 /// The texels of a draw call that are transparent.
@@ -370,11 +370,6 @@ impl<'t> DrawState<'t> {
         !matches!(self.role, Role::None | Role::Translucent | Role::Lit(_))
     }
 
-    /// What it has to do with shadows.
-    pub(crate) fn role(&self) -> Role {
-        self.role
-    }
-
     /// Says that a volume's triangles are seen from inside.
     pub(super) fn turn(&mut self) {
         if let Role::Front(light) = self.role {
@@ -394,11 +389,5 @@ impl<'t> DrawState<'t> {
     #[inline(always)]
     pub(crate) fn texture(&self) -> Option<(&'t Texture<'t>, Budget)> {
         Some((self.texture?, self.budget))
-    }
-
-    /// The texture's rows, if it is one of the squares that have loops of their own.
-    #[inline(always)]
-    pub(crate) fn square(&self) -> Option<Square<'t>> {
-        self.square
     }
 }

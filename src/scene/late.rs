@@ -83,7 +83,7 @@ mod tests {
                 for blend in [None, glass] {
                     let mut late = state(Some(shadow), blend);
                     for role in [role, turned, turned] {
-                        assert_eq!(late.role(), role);
+                        assert_eq!(late.role, role);
                         assert!(late.waits() && !late.is_translucent());
                         late.turn();
                     }
@@ -94,7 +94,7 @@ mod tests {
         assert!(late.is_translucent() && late.waits());
         let opaque = state(None, None);
         assert!(!opaque.is_translucent() && !opaque.waits());
-        assert_eq!(late.role(), Role::Translucent);
-        assert_eq!(opaque.role(), Role::None);
+        assert_eq!(late.role, Role::Translucent);
+        assert_eq!(opaque.role, Role::None);
     }
 }
