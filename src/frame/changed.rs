@@ -4,7 +4,7 @@
 //! over it.
 
 use super::renderer::Renderer;
-use super::send::{FrameError, FrameUse, Lines, window};
+use super::send::{FrameError, FrameUse, Lines, send, window};
 use crate::look::{Look, WordOf};
 use crate::scan_out::{LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns};
 use crate::scene::Scene;
@@ -27,34 +27,21 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    renderer.begin_frame(scene).map_err(FrameError::Line)?;
     let mut lines = Lines::new(scene, background, overlay);
-    let (mut end, mut skipped) = (scene.lines().start, 0);
-    let mut send = || {
-        pump.take_stats();
-        pump.begin_in_parts(window(scene), lines_per_transfer)?;
-        for line in scene.lines() {
-            let pixels = pump.line()?;
-            let drawn = lines.draw(renderer, line, pixels);
-            skipped += u32::from(!drawn.map_err(FrameError::Line)?);
-            end = line + 1;
-            if shown.replace(line, pixels) {
-                pump.line_done()?;
-            } else {
-                pump.line_left_out()?;
-            }
-            renderer.fetch_known(scene);
-        }
-        pump.finish()?;
-        Ok(pump.stats())
+    let mut end = scene.lines().start;
+    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
+        let is_active = lines.draw(renderer, line, pixels)?;
+        end = line + 1;
+        Ok((is_active, shown.replace(line, pixels)))
     };
-    let sent = send();
+    let begin = Pump::begin_in_parts;
+    let sent = send(scene, renderer, pump, lines_per_transfer, begin, draw);
     if sent.is_err() {
         for line in scene.lines().start..end {
             shown.forget_line(line);
         }
     }
-    sent.map(|sent| FrameUse::told(scene, renderer, skipped, sent))
+    sent
 }
 
 /// The same for the cells of lines that differ. Rectangles that are sent begin and end at edges of cells, whose size

@@ -37,7 +37,7 @@ where
     let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [SentBy<D>]| {
         let is_active = lines.draw(renderer, line, indices)?;
         expand(line, indices, pixels);
-        Ok(is_active)
+        Ok((is_active, true))
     };
-    send(scene, renderer, pump, lines_per_transfer, draw)
+    send(scene, renderer, pump, lines_per_transfer, Pump::begin, draw)
 }

@@ -377,7 +377,7 @@ where
             desk.answer(line + 1, peer);
             if line < desk.blank {
                 L::Pixel::fill(pixels, background);
-                return Ok(false);
+                return Ok((false, true));
             }
             lines.draw(renderer, line, pixels)?
         };
@@ -385,9 +385,9 @@ where
             let next = scene.begins_from(line + 1);
             desk.blank = desk.blank.max(next);
         }
-        Ok(is_active)
+        Ok((is_active, true))
     };
-    let sent = send(scene, renderer, pump, lines_per_transfer, draw);
+    let sent = send(scene, renderer, pump, lines_per_transfer, Pump::begin, draw);
     let closed = desk.close(end, peer).map_err(FrameError::Line);
     sent.and_then(|sent| closed.map(|()| sent))
 }

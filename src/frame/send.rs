@@ -90,9 +90,10 @@ where
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     let mut lines = Lines::new(scene, background, overlay);
-    send(scene, renderer, pump, lines_per_transfer, |by, line, to| {
-        lines.draw(by, line, to)
-    })
+    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
+        Ok((lines.draw(renderer, line, pixels)?, true))
+    };
+    send(scene, renderer, pump, lines_per_transfer, Pump::begin, draw)
 }
 
 /// The lines of a frame as they are drawn: what they read of the scene, once a frame, what is behind them, and what
@@ -134,24 +135,35 @@ impl<'a, L: Look, O: FnMut(u16, &mut [WordOf<L>])> Lines<'a, L, O> {
 /// A pixel as a sink sends it.
 pub(super) type SentBy<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
 
-/// Sends all lines of `scene`, each as `draw` writes it, which says whether something is active there.
+/// Sends lines of `scene` in a frame that `begin` begins, each as `draw` writes it, which says whether something is active
+/// there, and whether the line is sent.
 #[inline(always)]
 pub(super) fn send<'m, L: Look, D: ScanoutDma, const WORDS: usize>(
     scene: &Scene<'_, '_, L>,
     renderer: &mut Renderer<'m, L, WORDS>,
     pump: &mut Pump<D>,
     lines_per_transfer: u16,
-    mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [SentBy<D>]) -> Result<bool, LineError>,
+    begin: impl FnOnce(&mut Pump<D>, Window, u16) -> Result<(), ScanError<D::Error>>,
+    mut draw: impl FnMut(
+        &mut Renderer<'m, L, WORDS>,
+        u16,
+        &mut [SentBy<D>],
+    ) -> Result<(bool, bool), LineError>,
 ) -> Result<FrameUse, FrameError<D::Error>> {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;
     let mut skipped = 0;
     pump.take_stats();
-    pump.begin(window(scene), lines_per_transfer)?;
+    begin(pump, window(scene), lines_per_transfer)?;
     for line in scene.lines() {
         let pixels = pump.line()?;
         let drawn = draw(renderer, line, pixels).inspect_err(|_| pump.give_up());
-        skipped += u32::from(!drawn.map_err(FrameError::Line)?);
-        pump.line_done()?;
+        let (is_active, is_sent) = drawn.map_err(FrameError::Line)?;
+        skipped += u32::from(!is_active);
+        if is_sent {
+            pump.line_done()?;
+        } else {
+            pump.line_left_out()?;
+        }
         renderer.fetch_known(scene);
     }
     pump.finish()?;
