@@ -108,7 +108,6 @@ impl<B: LineBuf, const N: usize> Relay<B, N> {
             can_help,
             band: USUAL_BAND,
             lent: Deque::new(),
-            next: 0,
             blank: 0,
             end: 0,
             told: false,
@@ -206,8 +205,6 @@ pub struct Desk<'q, B> {
     band: u16,
     /// What the worker has, from the top.
     lent: Deque<Range<u16>, BANDS>,
-    /// The line after the last that was lent.
-    next: u16,
     /// Nothing is active on lines of this core before this one.
     blank: u16,
     /// Nothing is active from this line on.
@@ -230,8 +227,7 @@ impl<B: LineBuf> Desk<'_, B> {
     #[inline(never)]
     fn open<L>(&mut self, scene: &Scene<'_, '_, L>) {
         self.lent.clear();
-        self.next = scene.lines().start;
-        self.blank = scene.begins_from(self.next);
+        self.blank = scene.begins_from(scene.lines().start);
         self.end = scene.ends_by();
         self.told = false;
         self.odd = !self.odd;
@@ -254,7 +250,8 @@ impl<B: LineBuf> Desk<'_, B> {
         if self.told || self.lent.is_full() || !self.is_asked() {
             return;
         }
-        let from = self.next.max(line).max(self.blank);
+        let lent = self.lent.back().map_or(0, |band| band.end);
+        let from = lent.max(line).max(self.blank);
         let left = self.end.saturating_sub(from);
         let band = self.band.min((left / 4).max(1));
         // Lines in between are for this core: fewer, the further the worker is ahead; none, where this core has
@@ -269,10 +266,10 @@ impl<B: LineBuf> Desk<'_, B> {
         let start = from.saturating_add(between);
         let mut order = OVER;
         if left > between && self.can_help {
-            self.next = start.saturating_add(band);
-            order = BAND | u32::from(start) << 16 | u32::from(self.next);
+            let end = start.saturating_add(band);
+            order = BAND | u32::from(start) << 16 | u32::from(end);
             // There is room.
-            let _ = self.lent.push_back(start..self.next);
+            let _ = self.lent.push_back(start..end);
         }
         self.told = order == OVER;
         self.order.store(order, Ordering::Release);
