@@ -38,37 +38,29 @@ impl Costs {
     }
 }
 
-/// How runs are coloured: up to a class they join what is left of them, up to another they have one colour.
-struct Colouring {
-    joined: usize,
-    even: usize,
-}
-
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// How runs are coloured, so that the line can pay for them.
+    /// How runs are coloured, so that the line can pay for them: up to a class they join what is left of them, up to
+    /// another they have one colour.
     #[inline(never)]
-    fn choose(&self, pacer: &mut Pacer<L, WORDS>, runs: &Runs<'_>) -> Colouring {
+    fn choose(&self, pacer: &mut Pacer<L, WORDS>, runs: &Runs<'_>) -> (usize, usize) {
         if pacer.pay(runs.cost, 0) {
-            return Colouring { joined: 0, even: 0 };
+            return (0, 0);
         }
         if !pacer.pay(runs.count as u32 * u32::from(pacer.pace.span), 0) {
-            return Colouring {
-                joined: CLASSES,
-                even: CLASSES,
-            };
+            return (CLASSES, CLASSES);
         }
         let (mut one, mut more) = (Costs::default(), Costs::default());
         for Run { number, columns } in runs.iter() {
             one.add(columns, self.cost_of(pacer, number, 1));
-            let others = self.cost_of_others(pacer, number, columns.end - columns.start);
-            more.add(columns, others);
+            let width = columns.end - columns.start;
+            more.add(columns, self.cost_of_others(pacer, number, width));
         }
         let joined = one.pay(&mut pacer.left);
         let even = match joined {
             0 => more.pay(&mut pacer.left),
             _ => CLASSES,
         };
-        Colouring { joined, even }
+        (joined, even)
     }
 
     /// What it costs to colour so many pixels of a slot, beyond the first.
@@ -86,7 +78,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         out: &mut Line<'_, '_, L>,
         background: WordOf<L>,
     ) {
-        let Colouring { joined, even } = self.choose(pacer, runs);
+        let (joined, even) = self.choose(pacer, runs);
         for Run { number, columns } in runs.iter() {
             let (width, class) = (columns.end - columns.start, class_of(columns));
             if class < joined || class == joined && !pacer.pay(self.cost_of(pacer, number, 1), 0) {
