@@ -96,12 +96,6 @@ impl Flags {
         Self(self.0 & !3 | fill as u8)
     }
 
-    /// Whether columns need no look at the picture's border.
-    #[inline(always)]
-    pub(super) fn is_direct(self) -> bool {
-        self.0 & Way::INDIRECT << Self::WAY == 0
-    }
-
     /// Whether columns need no look at the picture's border, and depth has a plane that is known.
     #[inline(always)]
     pub(super) fn is_usual(self) -> bool {

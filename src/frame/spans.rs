@@ -74,15 +74,8 @@ pub(super) fn columns_of<L: Look>(
     slot: &CacheSlot<Active<L::Planes>>,
     out: &Line<'_, '_, L>,
 ) -> Span {
-    let (flags, sides) = (Flags::of(slot), &slot.item.sides);
-    let (start, end) = if flags.is_direct() {
-        (
-            sides.left.column(out.number),
-            sides.right.column(out.number),
-        )
-    } else {
-        sides.clipped(flags.way(), out.number, out.view.frame)
-    };
+    let (way, sides) = (Flags::of(slot).way(), &slot.item.sides);
+    let (start, end) = sides.columns(way, out.number, out.view.frame);
     Span { start, end }
 }
 
