@@ -7,12 +7,12 @@
 use super::alone::{Alone, set_up_stray};
 use super::guests::Stray;
 use super::renderer::Renderer;
-use super::rival::{Rival, rival_of, slope_of};
+use super::rival::{Rival, deepen, rival_of, slope_of};
 use super::ruled::{Ruled, ink_of};
 use super::shadow::count_shadowed;
-use super::slot::{Active, Flags};
-use super::spans::{Drawn, Known, Line, Span, columns_of};
-use crate::active::{CacheSlot, CacheUse, next};
+use super::slot::Flags;
+use super::spans::{Drawn, Known, Line, Span};
+use crate::active::{CacheUse, next};
 use crate::look::{Look, WordOf};
 use crate::num::take_first;
 use crate::scene::DrawState;
@@ -23,25 +23,21 @@ use crate::visible::{MOST_TESTED, Mask, test};
 #[derive(Debug)]
 pub(super) struct Counter<L: Look, const WORDS: usize> {
     /// A line without values, before it is drawn.
-    pub(super) line: CountLine<L, WORDS>,
+    pub(super) line: fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, L>),
     /// A span of a line with values, before it is drawn.
     pub(super) span: CountSpan<L>,
     /// What is translucent on a line with values, of so many slots that are listed and of what has none, before the first
     /// is drawn.
-    pub(super) panes: CountPanes<L, WORDS>,
+    pub(super) panes: fn(&mut Renderer<'_, L, WORDS>, usize, &Line<'_, '_, L>),
     /// What has to do with shadows, before it is taken.
     pub(super) shadowed: CountShadowed<L>,
 }
 
 type PlanesOf<L> = <L as Look>::Planes;
 
-type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, L>);
-
 /// The depth that the span is compared with, if it is, and whether it shares no column with another.
 type CountSpan<L> =
     fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, Option<&Known<'_>>, bool, &Line<'_, '_, L>);
-
-type CountPanes<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, usize, &Line<'_, '_, L>);
 
 /// The depth of the line, and its counts of volumes.
 type CountShadowed<L> =
@@ -58,50 +54,31 @@ impl<L: Look, const WORDS: usize> Counter<L, WORDS> {
     }
 }
 
-/// A span of a line without values, from a slot or without one.
-struct Seen<'a, P> {
-    object: u16,
-    span: Span,
-    slot: Option<&'a CacheSlot<Active<P>>>,
-}
-
-impl<P> Seen<'_, P> {
-    /// With its depth, or what stands for it; nothing is kept of it.
-    fn rival<L: Look<Planes = P>>(&self, out: &Line<'_, '_, L>) -> Option<Rival> {
-        let slot = self
-            .slot
-            .filter(|slot| !out.deep || Flags::of(slot).is_deep());
-        if let Some(slot) = slot {
-            return Some(rival_of::<L>(slot, self.span, out));
-        }
-        let stray = Stray::with(self.span, self.object, out.view)?;
-        Some(stray.rival(stray.slope::<L>(out)))
-    }
-}
-
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Calls `f` with each span of the line.
-    fn each_span(&self, out: &Line<'_, '_, L>, f: &mut dyn FnMut(&Seen<'_, L::Planes>)) {
+    /// Calls `f` with each span of the line, its object, and what says how it competes; nothing is kept of depths.
+    fn each_span(&self, out: &Line<'_, '_, L>, f: &mut dyn FnMut(Span, u16, &dyn Fn() -> Rival)) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             while let Some(i) = take_first(&mut used) {
                 let slot = &self.cache.slots[word][i as usize & 31];
-                let span = columns_of::<L>(slot, out);
+                let span = Span::of(self.cache.spans[word][i as usize & 31]);
                 if span.start < span.end {
-                    f(&Seen {
-                        object: slot.object,
-                        span,
-                        slot: Some(slot),
+                    f(span, slot.object, &|| {
+                        if !out.deep || Flags::of(slot).is_deep() {
+                            return rival_of::<L>(slot, span, out);
+                        }
+                        let mut slot = *slot;
+                        deepen::<L>(&mut slot, out.view);
+                        rival_of::<L>(&slot, span, out)
                     });
                 }
             }
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            let stray = Stray::of(at.object(), out.view, out.number);
-            if let Some(Stray { object, span, .. }) = stray {
-                let slot = None;
-                f(&Seen { object, span, slot });
+            if let Some(stray) = Stray::of(at.object(), out.view, out.number) {
+                let rival = || stray.rival(stray.slope::<L>(out));
+                f(stray.span, stray.object, &rival);
             }
             at = next(self.links, at);
         }
@@ -110,21 +87,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Counts the spans of a line without values.
     #[inline(never)]
     fn count_line(&mut self, out: &Line<'_, '_, L>) {
-        let (mut covered, mut over) = (Mask::EMPTY, Mask::EMPTY);
-        self.each_span(out, &mut |one| {
-            covered.cover_over(&mut over, one.span.start, one.span.end);
-        });
-        let mut counts = self.spans;
-        self.each_span(out, &mut |one| {
-            let Span { start, end } = one.span;
-            let is_alone = !over.meets(start, end);
-            let all = end - start;
-            let seen = if is_alone {
-                all
+        // What it takes to find spans is not counted.
+        let (counts, mut spans) = (self.counts, self.spans);
+        self.find_all(out);
+        self.counts = counts;
+        self.each_span(out, &mut |Span { start, end }, object, rival| {
+            let (all, meets) = (end - start, self.over.meets(start, end));
+            let seen = if meets {
+                self.seen_of(rival(), out)
             } else {
-                self.seen_of(one, out)
+                all
             };
-            let has_texels = has_texels::<L>(out.view.draws.state(one.object));
+            let has_texels = has_texels::<L>(out.view.draws.state(object));
             let pixels = SpanPixels {
                 all,
                 seen,
@@ -132,25 +106,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 tested: 0,
                 fetched: seen * u32::from(has_texels),
             };
-            counts.add_span(pixels, is_alone);
+            spans.add_span(pixels, !meets);
         });
-        self.spans = counts;
+        self.spans = spans;
+        self.covered.clear();
+        self.over.clear();
     }
 
     /// How many pixels of a span no other is seen before.
-    fn seen_of(&self, one: &Seen<'_, L::Planes>, out: &Line<'_, '_, L>) -> u32 {
-        let Some(rival) = one.rival::<L>(out) else {
-            return 0;
-        };
+    fn seen_of(&self, one: Rival, out: &Line<'_, '_, L>) -> u32 {
         let mut hidden = Mask::EMPTY;
-        self.each_span(out, &mut |other| {
-            if other.object != one.object && other.span.meets(one.span) {
-                let part = other
-                    .rival::<L>(out)
-                    .and_then(|other| other.hidden_of(rival));
-                if let Some(Span { start, end }) = part {
-                    hidden.cover(start, end);
-                }
+        self.each_span(out, &mut |span, _, other| {
+            if span.meets(one.span) {
+                other().hide(&one, &mut hidden);
             }
         });
         let Span { start, end } = one.span;
