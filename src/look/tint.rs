@@ -24,7 +24,7 @@
 
 use super::ramp::Pair;
 use crate::num::rolled;
-use crate::pixel::{PixelFormat, Rgb565, Rgb565Bytes, threshold};
+use crate::pixel::{PixelFormat, Rgb565Bytes, threshold};
 use core::hint::black_box as unknown;
 
 /// Light of a pixel, or its step: full light is 2^15.
@@ -292,17 +292,10 @@ pub trait Texel: PixelFormat<Word = u16> {
     }
 }
 
-impl Texel for Rgb565 {
+impl<const ORDER: u8> Texel for Rgb565Bytes<ORDER> {
     #[inline(always)]
     fn ordered(word: u16) -> u16 {
-        word
-    }
-}
-
-impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
-    #[inline(always)]
-    fn ordered(word: u16) -> u16 {
-        if BIG { word.to_be() } else { word.to_le() }
+        Self::in_memory(word)
     }
 }
 
@@ -310,6 +303,7 @@ impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
 mod tests {
     use super::*;
     use crate::num::random::Rng;
+    use crate::pixel::{Rgb565, Rgb565Be};
     use std::vec::Vec;
 
     /// Red, green and blue of a pixel, in steps of its own.
@@ -354,7 +348,7 @@ mod tests {
             let mut run = texels.clone();
             Rgb565::tint_dithered(&mut run, shade(first), shade(step), at);
             let mut swapped: Vec<u16> = texels.iter().map(|t| t.swap_bytes()).collect();
-            Rgb565Bytes::<true>::tint_dithered(&mut swapped, shade(first), shade(step), at);
+            Rgb565Be::tint_dithered(&mut swapped, shade(first), shade(step), at);
             assert!(run.iter().zip(&swapped).all(|(r, s)| *r == s.swap_bytes()));
             for (k, (&got, &texel)) in (0..).zip(run.iter().zip(&texels)) {
                 let parts = f64::from(threshold(at[0] + k, at[1])) / 32.0 + 0.5;

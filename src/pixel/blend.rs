@@ -82,12 +82,8 @@ fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend,
     };
     let factors = factors.map(linear);
     for (old, &new) in old.iter_mut().zip(new) {
-        let mut word = [new];
-        if let Some(mix) = mix {
-            word = [*old];
-            F::mix(&mut word, &[new], mix);
-        }
-        let (o, mut n) = (F::to_rgb8(*old), F::to_rgb8(word[0]));
+        let word = mix.map_or(new, |mix| F::mix_one(*old, new, mix));
+        let (o, mut n) = (F::to_rgb8(*old), F::to_rgb8(word));
         for (i, (&o, n)) in o.iter().zip(&mut n).enumerate() {
             if blend.channels >> i & 1 == 0 {
                 *n = o;

@@ -112,28 +112,40 @@ pub trait PixelFormat {
 #[derive(Clone, Copy, Debug)]
 pub struct Rgb888;
 
-/// Five, six and five bits as a 16-bit number, for parallel buses and frame buffers.
+/// Five, six and five bits with their bytes in memory in the order of the processor, or in a stated one.
 #[derive(Clone, Copy, Debug)]
-pub struct Rgb565;
+pub struct Rgb565Bytes<const ORDER: u8>;
 
-/// Five, six and five bits in a stated order of bytes in memory: the high one first if `BIG`.
-#[derive(Clone, Copy, Debug)]
-pub struct Rgb565Bytes<const BIG: bool>;
+/// Five, six and five bits as a 16-bit number, for parallel buses and frame buffers.
+pub type Rgb565 = Rgb565Bytes<0>;
 
 /// Five, six and five bits with the high byte first in memory, for SPI panels.
-pub type Rgb565Be = Rgb565Bytes<true>;
+pub type Rgb565Be = Rgb565Bytes<BIG>;
 
 /// Five, six and five bits with the low byte first in memory.
-pub type Rgb565Le = Rgb565Bytes<false>;
+pub type Rgb565Le = Rgb565Bytes<LITTLE>;
 
-impl<const BIG: bool> Rgb565Bytes<BIG> {
+/// Orders that are stated.
+const BIG: u8 = 1;
+const LITTLE: u8 = 2;
+
+impl<const ORDER: u8> Rgb565Bytes<ORDER> {
     /// Whether that is the order of the processor.
-    const IS_NATIVE: bool = BIG == cfg!(target_endian = "big");
+    const IS_NATIVE: bool = ORDER
+        != if cfg!(target_endian = "big") {
+            LITTLE
+        } else {
+            BIG
+        };
 
-    /// A native word with its bytes in the stated order, and back.
+    /// A native word with its bytes in that order, and back.
     #[inline(always)]
-    const fn in_memory(word: u16) -> u16 {
-        if BIG { word.to_be() } else { word.to_le() }
+    pub(crate) const fn in_memory(word: u16) -> u16 {
+        if Self::IS_NATIVE {
+            word
+        } else {
+            word.swap_bytes()
+        }
     }
 }
 
@@ -193,19 +205,20 @@ impl PixelFormat for Rgb888 {
     }
 }
 
-impl PixelFormat for Rgb565 {
+impl<const ORDER: u8> PixelFormat for Rgb565Bytes<ORDER> {
     type Word = u16;
     const STEPS: [u16; 3] = [31, 63, 31];
     const MADE_OF: MadeOf = MadeOf::OneWord;
 
     #[inline(always)]
     fn pack(s: [u8; 3]) -> u16 {
-        u16::from(s[0]) << 11 | u16::from(s[1]) << 5 | u16::from(s[2])
+        Self::in_memory(u16::from(s[0]) << 11 | u16::from(s[1]) << 5 | u16::from(s[2]))
     }
 
     #[inline(always)]
     fn pack_words(red_blue: u32, green: u32) -> u16 {
-        ((red_blue >> 16 & 0xF800) | (green >> 26) << 5 | (red_blue >> 11 & 0x1F)) as u16
+        let word = (red_blue >> 16 & 0xF800) | (green >> 26) << 5 | (red_blue >> 11 & 0x1F);
+        Self::in_memory(word as u16)
     }
 
     /// Sixteen pixels a step: 0.4 instructions a pixel on a Cortex-M4, where one a store takes
@@ -224,69 +237,6 @@ impl PixelFormat for Rgb565 {
     }
 
     fn mix(old: &mut [u16], new: &[u16], mix: Mix) {
-        mix_565(old, new, |pair| pair, mix);
-    }
-
-    #[inline(always)]
-    fn mix_one(old: u16, new: u16, mix: Mix) -> u16 {
-        mix_one(old, new, mix)
-    }
-
-    /// All channels at once, with room above each for its carry.
-    #[inline(always)]
-    fn add(a: u16, b: u16) -> u16 {
-        let sum = between::apart_565(a) + between::apart_565(b);
-        // Of what has overflown all bits are set: 5 below the carry, of green one more.
-        let over = sum & 0x0801_0020;
-        let full = (over - (over >> 5)) | over >> 6 & 0x0020_0000;
-        between::joined_565((sum | full) & between::FIELDS_565)
-    }
-
-    fn to_rgb8(word: u16) -> [u8; 3] {
-        let [r, g, b] = [word >> 11, word >> 5 & 63, word & 31];
-        // Exact, without a division.
-        [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
-    }
-
-    #[inline(always)]
-    fn of_word(word: u32) -> u16 {
-        twice_565(word) as u16
-    }
-
-    #[inline(always)]
-    fn widen(word: u16) -> [u32; 2] {
-        [between::apart_565(word), 0]
-    }
-
-    #[inline(always)]
-    fn narrow([wide, _]: [u32; 2]) -> u16 {
-        /// Half a step of each field.
-        const HALVES: u32 = 8 << 21 | 8 << 11 | 8;
-        between::joined_565((wide + HALVES) >> 4 & between::FIELDS_565)
-    }
-}
-
-impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
-    type Word = u16;
-    const STEPS: [u16; 3] = Rgb565::STEPS;
-    const MADE_OF: MadeOf = MadeOf::OneWord;
-
-    #[inline(always)]
-    fn pack(s: [u8; 3]) -> u16 {
-        Self::in_memory(Rgb565::pack(s))
-    }
-
-    #[inline(always)]
-    fn pack_words(red_blue: u32, green: u32) -> u16 {
-        Self::in_memory(Rgb565::pack_words(red_blue, green))
-    }
-
-    #[inline(always)]
-    fn fill(pixels: &mut [u16], word: u16) {
-        Rgb565::fill(pixels, word);
-    }
-
-    fn mix(old: &mut [u16], new: &[u16], mix: Mix) {
         let order = |pair| match Self::IS_NATIVE {
             true => pair,
             false => swapped_halves(pair),
@@ -300,9 +250,14 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
         Self::in_memory(mix_one(old, new, mix))
     }
 
+    /// All channels at once, with room above each for its carry.
     #[inline(always)]
     fn add(a: u16, b: u16) -> u16 {
-        Self::in_memory(Rgb565::add(Self::in_memory(a), Self::in_memory(b)))
+        let sum = Self::widen(a)[0] + Self::widen(b)[0];
+        // Of what has overflown all bits are set: 5 below the carry, of green one more.
+        let over = sum & 0x0801_0020;
+        let full = (over - (over >> 5)) | over >> 6 & 0x0020_0000;
+        Self::in_memory(between::joined_565((sum | full) & between::FIELDS_565))
     }
 
     fn texel(rgb: [u8; 3]) -> u16 {
@@ -311,7 +266,10 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
 
     fn to_rgb8(word: u16) -> [u8; 3] {
         // To swap the bytes, or not to, is its own inverse.
-        Rgb565::to_rgb8(Self::in_memory(word))
+        let word = Self::in_memory(word);
+        let [r, g, b] = [word >> 11, word >> 5 & 63, word & 31];
+        // Exact, without a division.
+        [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
     }
 
     #[inline(always)]
@@ -340,8 +298,11 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     }
 
     #[inline(always)]
-    fn narrow(fields: [u32; 2]) -> u16 {
-        Self::in_memory(Rgb565::narrow(fields))
+    fn narrow([wide, _]: [u32; 2]) -> u16 {
+        /// Half a step of each field.
+        const HALVES: u32 = 8 << 21 | 8 << 11 | 8;
+        let fields = (wide + HALVES) >> 4 & between::FIELDS_565;
+        Self::in_memory(between::joined_565(fields))
     }
 }
 
