@@ -52,11 +52,13 @@ impl Guest {
     #[inline(always)]
     fn insert(self, cells: &mut [u32], count: usize) {
         let mut cells = cells.get_mut(..CELLS * (count + 1)).unwrap_or_default();
-        while let Some((before, to)) = take(&mut cells).split_last_chunk_mut() {
-            match before.last_chunk::<CELLS>() {
-                Some(from) if from[0] < self.key => *to = *from,
+        while let [before @ .., a, b, c, d] = take(&mut cells) {
+            match *before {
+                [.., key, object, span, step] if key < self.key => {
+                    [*a, *b, *c, *d] = [key, object, span, step];
+                }
                 _ => {
-                    *to = self.cells();
+                    [*a, *b, *c, *d] = self.cells();
                     break;
                 }
             }
