@@ -20,7 +20,7 @@ use crate::num::{few_leading_zeros, leading_zeros_here, mul_high, mul_high_unsig
 pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
-use crate::scene::{Budget, SampledSpan, Sampling, Square, Stretch, Texture, Words};
+use crate::scene::{Budget, SampledSpan, Square, Stretch, Texture, Words};
 use crate::span::Frame;
 
 /// A corner of a triangle; corners go clockwise.
@@ -265,7 +265,18 @@ impl Mapping {
                 let level = texture.texels_of(self.planes[1][0] as usize);
                 self.draw_any(run, place, level, budget);
             }
-            Some(sampling) => self.draw_sampled(run, place, texture, sampling, words),
+            Some(sampling) => {
+                let span = SampledSpan {
+                    texture,
+                    words,
+                    method: self.method,
+                    steps: self.reach.line,
+                    base: texels_of(self.base),
+                    planes: &self.planes,
+                    place,
+                };
+                (sampling.draw)(&span, run);
+            }
         }
     }
 
@@ -329,28 +340,6 @@ impl Mapping {
                 span.draw(run, within, texture, stride_within(reach.line));
             }
         }
-    }
-
-    /// The same as the texture wants them to be taken.
-    #[inline(never)]
-    pub fn draw_sampled(
-        &self,
-        run: &mut [u16],
-        place: Place,
-        texture: &Texture<'_>,
-        sampling: Sampling,
-        words: Words,
-    ) {
-        let span = SampledSpan {
-            texture,
-            words,
-            method: self.method,
-            steps: self.reach.line,
-            base: texels_of(self.base),
-            planes: &self.planes,
-            place,
-        };
-        (sampling.draw)(&span, run);
     }
 }
 

@@ -65,14 +65,6 @@ fn normal_of(value: [u32; 3]) -> [i16; 3] {
     value.map(|v| (v.wrapping_sub(MIDDLE) as i32 >> 15) as i16)
 }
 
-/// A pixel of channels of 16 bits, raised by so many of 32 parts of a step, 16 of them for the nearest.
-#[inline(always)]
-fn pixel<F: PixelFormat>(channels: [u32; 3], parts: i32) -> F::Word {
-    // Below a whole step, so that no channel gets more than 16 bits.
-    let raised = |i: usize| channels[i] + parts_of(parts, F::STEPS[i]) as u32;
-    F::pack_words(raised(0) << 16 | raised(2), raised(1) << 16)
-}
-
 /// What shines on the pixels of a draw call, and the colour that it falls on.
 pub(super) struct Shine<'t> {
     lamps: &'t PixelLamps,
@@ -126,11 +118,13 @@ pub(super) fn light<F: PixelFormat>(
     for (pixel, column) in run.iter_mut().zip(place.column..) {
         let at = [column, place.line];
         let lit = shine.lamps.lit(normal_of(value), at, own(), F::STEPS);
+        // Parts of 32 of a step, 16 for the nearest: below a whole one, so that no channel gets more than 16 bits.
         let mut parts = 16;
         if dithers {
             parts += threshold(column, place.line);
         }
-        *pixel = self::pixel::<F>(lit, parts);
+        let raised = |i: usize| lit[i] + parts_of(parts, F::STEPS[i]) as u32;
+        *pixel = F::pack_words(raised(0) << 16 | raised(2), raised(1) << 16);
         go_on(&mut value, steps, 1);
     }
 }

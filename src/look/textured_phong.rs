@@ -112,13 +112,8 @@ macro_rules! lit {
 
             // No triangle that is lit at pixels is plain.
             #[inline(always)]
-            fn fill_plain(
-                planes: &Planes,
-                place: Place,
-                draws: States<'_>,
-                run: &mut [WordOf<Self>],
-            ) {
-                Textured::<$format>::fill_plain(planes, place, draws, run);
+            fn fill_plain(planes: &Planes, at: Place, draws: States<'_>, run: &mut [WordOf<Self>]) {
+                Textured::<$format>::fill_plain(planes, at, draws, run);
             }
 
             fn fill(
