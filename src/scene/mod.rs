@@ -296,14 +296,12 @@ impl<'m, 't, L> Scene<'m, 't, L> {
 
     /// The first line from `line` on that a triangle begins on; the line after the last where none does.
     pub(crate) fn begins_from(&self, line: u16) -> u16 {
-        let bins = self.bins.get(..self.lines.len()).unwrap_or_default();
-        let mut rest = bins
-            .iter()
-            .skip(usize::from(line.saturating_sub(self.lines.start)));
-        match rest.position(|&head| head != NONE) {
-            Some(lines) => line.max(self.lines.start) + lines as u16,
-            None => self.lines.end,
-        }
+        let Range { start, end } = self.lines;
+        let first = line.max(start);
+        let heads = self.bins.iter().skip(usize::from(first - start));
+        let mut lines = (first..end).zip(heads);
+        let begins = lines.find(|(_, head)| **head != NONE);
+        begins.map_or(end, |(line, _)| line)
     }
 
     /// A line from which on no triangle is active, by the lowest vertex.

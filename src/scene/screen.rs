@@ -113,15 +113,9 @@ impl<'t, L> Scene<'_, 't, L> {
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
         check_flat(draw, draw.mesh.positions.len())?;
-        let mesh = Mesh {
-            faces: Faces::Triangles(&[]),
-            ..draw.mesh
-        };
-        let draw = Draw {
-            mesh,
-            cull: Cull::None,
-            ..*draw
-        };
+        let (mut draw, mesh) = (*draw, &draw.mesh);
+        draw.mesh.faces = Faces::Triangles(&[]);
+        draw.cull = Cull::None;
         let faces: &[[usize; 3]] = match size {
             0 => &[],
             1 => &[[0, 1, 2]],
@@ -136,7 +130,7 @@ impl<'t, L> Scene<'_, 't, L> {
                     continue;
                 }
                 let on = pass.view.project(point);
-                let lit = || pass.colour_of(&mesh, i);
+                let lit = || pass.colour_of(mesh, i);
                 let colour = pass.one.unwrap_or_else(lit);
                 let texel = TexturePlace::new(pass.texel(i), [0; 2]);
                 for face in faces {
