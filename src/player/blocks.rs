@@ -11,7 +11,6 @@ use crate::list::{
     Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
-use crate::scene::Shadow;
 
 impl<'n, 'm, 't, L: Look, C: Coordinate + Place, W: Words<'t>> Stage<'_, 'n, 'm, 't, L, C, W> {
     /// Does one block.
@@ -35,8 +34,7 @@ impl<'n, 'm, 't, L: Look, C: Coordinate + Place, W: Words<'t>> Stage<'_, 'n, 'm,
     /// Takes vertices or faces.
     fn take(&mut self, run: Run) -> Result<(), Reason> {
         let id = run.header.id;
-        let draw = &self.player.state.draw;
-        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
+        let is_volume = self.player.state.draw.is_volume();
         if is_volume && matches!(id, Id::Points | Id::Long) {
             return Err(Reason::Missing(Missing::Shadows));
         }
@@ -260,12 +258,8 @@ impl<'n, 'm, 't, L: Look, C: Coordinate + Place, W: Words<'t>> Stage<'_, 'n, 'm,
         if light.is_some() && player.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
-        lights::set(
-            player.lights.as_deref_mut(),
-            &mut player.state,
-            number,
-            light,
-        )
+        let room = player.lights.as_deref_mut();
+        lights::set(room, &mut player.state, number, light)
     }
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {

@@ -14,7 +14,6 @@ use crate::list::{
 };
 use crate::look::Look;
 use crate::scene::{Budget, Draw, Sampling, Scene, Shadow, Texture};
-use core::marker::PhantomData;
 
 /// Memory of a player, lent by the application.
 ///
@@ -180,7 +179,6 @@ pub struct Player<'m, 't, L, C = i16> {
     /// The list that begins is to be looked at before it is drawn.
     unchecked: bool,
     pub(super) counts: RunCounts,
-    look: PhantomData<L>,
 }
 
 /// A player at work on a list.
@@ -222,7 +220,6 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             settings,
             unchecked: false,
             counts: RunCounts::default(),
-            look: PhantomData,
         }
     }
 

@@ -207,11 +207,8 @@ impl<'t> Shelf<'t> {
             false => Wrap::Repeat,
         };
         // Sides and lengths are those that the block was checked for.
-        let level = |level| {
-            source
-                .level(level, words)
-                .map_err(|_| Reason::Lent(Lent::Texels))
-        };
+        let lacks = Reason::Lent(Lent::Texels);
+        let level = |level| source.level(level, words).map_err(|_| lacks);
         let made = level(0)?.wrapping(wrap);
         let taken = take(&mut self.levels, source.coarser());
         for (number, slot) in (1..).zip(taken.iter_mut()) {
@@ -329,12 +326,9 @@ impl<'t> Source<'t> {
 
     /// How many colours are written.
     fn count(&self) -> usize {
-        match self.pair.form {
-            TexelForm::Index1 => 2,
-            TexelForm::Index2 => 4,
-            TexelForm::Index4 => 16,
-            TexelForm::Index6 | TexelForm::Index8 => 256,
-            _ => self.texels_above(self.pair.levels),
+        match self.pair.form.is_indexed() {
+            true => 1 << self.pair.form.bits(),
+            false => self.texels_above(self.pair.levels),
         }
     }
 
