@@ -167,6 +167,11 @@ pub(super) type DrawValues<L, const WORDS: usize> =
 /// Colours a run, dithered.
 pub(super) type Dither<L> = fn(Drawn<'_, <L as Look>::Planes>, Place, &View<'_>, &mut [WordOf<L>]);
 
+/// Draws what has to do with shadows on a line whose opaque spans are drawn; of a line that is not drawn by depth, hides
+/// what is never seen of it.
+pub(super) type DrawShadows<L, const WORDS: usize> =
+    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, L>);
+
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the scene with any
 /// number of others (K16, X6).
 ///
@@ -205,9 +210,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) values: Option<DrawValues<L, WORDS>>,
     /// Likewise what dithers.
     pub(super) dither: Option<Dither<L>>,
-    /// Likewise what draws what has to do with shadows on a line whose opaque spans are drawn, and of a line that is not
-    /// drawn by depth hides what is never seen of it.
-    pub(super) shadows: Option<fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, L>)>,
+    /// Likewise of shadows.
+    pub(super) shadows: Option<DrawShadows<L, WORDS>>,
     /// Counts of shadow volumes on a line, for one light at a time.
     pub(super) volumes: &'m mut [u8],
     /// Likewise of counting spans and pixels.

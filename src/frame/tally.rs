@@ -54,9 +54,12 @@ impl<L: Look, const WORDS: usize> Counter<L, WORDS> {
     }
 }
 
+/// Is given a span of a line without values, its object, and what says how it competes.
+type OnSpan<'f> = dyn FnMut(Span, u16, &dyn Fn() -> Rival) + 'f;
+
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Calls `f` with each span of the line, its object, and what says how it competes; nothing is kept of depths.
-    fn each_span(&self, out: &Line<'_, '_, L>, f: &mut dyn FnMut(Span, u16, &dyn Fn() -> Rival)) {
+    /// Calls `f` with each span of the line; nothing is kept of depths.
+    fn each_span(&self, out: &Line<'_, '_, L>, f: &mut OnSpan<'_>) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             while let Some(i) = take_first(&mut used) {
@@ -142,28 +145,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let ruled = Ruled { drawn, span, state };
             count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
         }
-        let mut at = self.cache.spilled;
-        while at.is_some() {
-            let state = out.view.draws.state(at.object());
-            if let Some(state) = state.filter(|state| state.is_translucent()) {
-                self.count_pane_alone(at.object(), state, out);
-            }
-            at = next(self.links, at);
-        }
-    }
-
-    /// Counts a translucent span without a slot.
-    fn count_pane_alone(&mut self, object: u16, state: &DrawState<'_>, out: &Line<'_, '_, L>) {
-        let Some(stray) = Stray::of(object, out.view, out.number) else {
-            return;
-        };
-        // What it takes to count is not counted.
         let mut alone = Alone::empty(L::EMPTY);
-        set_up_stray::<L>(&stray, &mut alone, &mut CacheUse::default(), out);
-        let (drawn, span) = (alone.drawn(), stray.span);
-        let known = Known::new(stray.slope::<L>(out), self.depth, &mut self.written);
-        let ruled = Ruled { drawn, span, state };
-        count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
+        let mut at = self.first_spilled();
+        while let Some(found) = self.spilled_of(at, out.view, &|state| state.is_translucent()) {
+            if let Some(stray) = self.spilled_stray(found.at, out) {
+                // What it takes to count is not counted.
+                set_up_stray::<L>(&stray, &mut alone, &mut CacheUse::default(), out);
+                let (drawn, span, state) = (alone.drawn(), stray.span, found.state);
+                let known = Known::new(stray.slope::<L>(out), self.depth, &mut self.written);
+                let ruled = Ruled { drawn, span, state };
+                count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
+            }
+            at = self.after(found.at);
+        }
     }
 }
 
