@@ -19,17 +19,15 @@ pub(crate) enum Part {
     All,
 }
 
-/// The bits of `start .. end` within one word; rotations need no masked shift count.
+/// The word that has `start .. end`, and its bits there; `None` where its last column or another word is touched. Rotations
+/// need no masked shift count.
 #[inline(always)]
-fn between(start: u32, end: u32) -> u32 {
+fn one_word(start: u32, end: u32) -> Option<(usize, u32)> {
     const TOP: u32 = 0x8000_0000;
-    TOP.rotate_right(start).wrapping_sub(TOP.rotate_right(end)) << 1
-}
-
-/// Whether `start .. end` lies within one word and ends before its last column.
-#[inline(always)]
-fn is_in_one(start: u32, end: u32) -> bool {
-    (start ^ end) >> 5 == 0
+    ((start ^ end) >> 5 == 0).then(|| {
+        let bits = TOP.rotate_right(start).wrapping_sub(TOP.rotate_right(end)) << 1;
+        (word_of(start), bits)
+    })
 }
 
 #[inline(always)]
@@ -69,9 +67,8 @@ impl Mask {
     /// Covers `start .. end`; not 0 where one of them was covered already.
     #[inline(always)]
     pub(crate) fn cover(&mut self, start: u32, end: u32) -> u32 {
-        if is_in_one(start, end) {
-            let bits = between(start, end);
-            let word = &mut self.0[word_of(start)];
+        if let Some((i, bits)) = one_word(start, end) {
+            let word = &mut self.0[i];
             let hit = *word & bits;
             *word |= bits;
             return hit;
@@ -92,9 +89,7 @@ impl Mask {
     /// Covers `start .. end`, and in `over` those that were covered already; not 0 where one of them was.
     #[inline(always)]
     pub(crate) fn cover_over(&mut self, over: &mut Self, start: u32, end: u32) -> u32 {
-        if is_in_one(start, end) {
-            let bits = between(start, end);
-            let i = word_of(start);
+        if let Some((i, bits)) = one_word(start, end) {
             let hit = self.0[i] & bits;
             self.0[i] |= bits;
             if hit != 0 {
@@ -139,8 +134,8 @@ impl Mask {
     /// Whether the mask has any of `start .. end`.
     #[inline(always)]
     pub(crate) fn meets(&self, start: u32, end: u32) -> bool {
-        if is_in_one(start, end) {
-            return self.0[word_of(start)] & between(start, end) != 0;
+        if let Some((i, bits)) = one_word(start, end) {
+            return self.0[i] & bits != 0;
         }
         self.meets_words(start, end)
     }
@@ -156,42 +151,33 @@ impl Mask {
     /// that was not.
     #[inline(always)]
     pub(crate) fn cover_part(&mut self, start: u32, end: u32, new: impl FnMut(usize)) -> Part {
-        if is_in_one(start, end) {
-            let bits = between(start, end);
-            let word = &mut self.0[word_of(start)];
-            let old = *word & bits;
-            if old == 0 || old == bits {
-                *word |= bits;
-                return if old == 0 { Part::None } else { Part::All };
-            }
+        let part = self.cover_new(start, end);
+        if part == Part::Some {
+            self.cover_rest(start, end, new);
         }
-        self.cover_part_words(start, end, new)
+        part
     }
 
+    /// Covers what is not covered of `start .. end`; `new` gets each column of it.
     #[inline(never)]
-    fn cover_part_words(&mut self, start: u32, end: u32, mut new: impl FnMut(usize)) -> Part {
-        let part = self.part_of_words(start, end);
+    fn cover_rest(&mut self, start: u32, end: u32, mut new: impl FnMut(usize)) {
         each_word(start, end, |word, bits| {
-            if part == Part::Some {
-                let mut fresh = bits & !self.0[word];
-                while fresh != 0 {
-                    rolled();
-                    let first = leading_zeros(fresh);
-                    fresh &= !(0x8000_0000 >> (first & 31));
-                    new(word * 32 + first as usize);
-                }
+            let mut fresh = bits & !self.0[word];
+            while fresh != 0 {
+                rolled();
+                let first = leading_zeros(fresh);
+                fresh &= !(0x8000_0000 >> (first & 31));
+                new(word * 32 + first as usize);
             }
             self.0[word] |= bits;
         });
-        part
     }
 
     /// How much of `start .. end` was covered; where none was, all of it is now.
     #[inline(always)]
     pub(crate) fn cover_new(&mut self, start: u32, end: u32) -> Part {
-        if is_in_one(start, end) {
-            let bits = between(start, end);
-            let word = &mut self.0[word_of(start)];
+        if let Some((i, bits)) = one_word(start, end) {
+            let word = &mut self.0[i];
             let old = *word & bits;
             if old == 0 {
                 *word |= bits;
