@@ -10,7 +10,7 @@ use super::spans::{Drawn, Known, Line, Span, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::{few_leading_zeros, rolled};
 use crate::pixel::{blend, blend_each};
-use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
+use crate::scene::{DepthTest, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, keep, test};
 use core::ops::Range;
 
@@ -27,8 +27,7 @@ pub(super) struct Ink<'a, P> {
     pub(super) fill: Fill,
     pub(super) planes: &'a P,
     span: Span,
-    blend: Option<Blend>,
-    dithers: bool,
+    state: &'a DrawState<'a>,
     surface: Surface,
 }
 
@@ -50,7 +49,7 @@ pub(super) fn draw_ruled<L: Look>(
             continue;
         }
         if state.is_by_pixel() {
-            lay_by_pixel::<L>(&ink, run, state, out, &mut known);
+            lay_by_pixel::<L>(&ink, run, out, &mut known);
             continue;
         }
         match &mut known {
@@ -89,8 +88,7 @@ pub(super) fn ink_of<'a, L: Look>(
         fill,
         planes: others.as_ref().unwrap_or(drawn.planes),
         span,
-        blend: state.blend,
-        dithers: state.dithers,
+        state,
         surface: state
             .alphas
             .and_then(|alphas| Surface::of(alphas, drawn.object, span, out.number, out.view))
@@ -185,10 +183,10 @@ pub(super) fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
 fn lay_by_pixel<L: Look>(
     ink: &Ink<'_, L::Planes>,
     run: Span,
-    state: &DrawState<'_>,
     out: &mut Line<'_, '_, L>,
     known: &mut Option<Known<'_>>,
 ) {
+    let state = ink.state;
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let mut alphas = [PixelAlpha::OPAQUE; MOST_TESTED];
     for from in (run.start..run.end).step_by(MOST_TESTED) {
@@ -199,11 +197,11 @@ fn lay_by_pixel<L: Look>(
         };
         let at = ink.span.place(from, out.number);
         let draws = out.view.draws.states;
-        let opaque = L::fill_opaque(ink.fill, ink.planes, at, draws, ink.dithers, new);
+        let opaque = L::fill_opaque(ink.fill, ink.planes, at, draws, state.dithers, new);
         let has_alphas = state.has_alphas();
         if has_alphas {
-            find_alphas::<L>(ink, at, state, out.view, alphas);
-            if L::TEXTURED && ink.dithers {
+            find_alphas::<L>(ink, at, out.view, alphas);
+            if L::TEXTURED && state.dithers {
                 undither::<L>(ink, at, out.view, alphas, new);
             }
         }
@@ -215,7 +213,7 @@ fn lay_by_pixel<L: Look>(
             let Some(new) = new.get(..old.len()) else {
                 return;
             };
-            match ink.blend {
+            match state.blend {
                 None => old.copy_from_slice(new),
                 Some(how) if has_alphas => {
                     let alphas = alphas.get(columns(from)).unwrap_or_default();
@@ -238,13 +236,12 @@ fn lay_by_pixel<L: Look>(
 fn find_alphas<L: Look>(
     ink: &Ink<'_, L::Planes>,
     at: Place,
-    state: &DrawState<'_>,
     view: &View<'_>,
     alphas: &mut [PixelAlpha],
 ) {
     let mut texels = [MaskTexel::OPAQUE.word(); MOST_TESTED];
     let texels = &mut texels[..alphas.len()];
-    if L::TEXTURED && state.has_mask {
+    if L::TEXTURED && ink.state.has_mask {
         L::fill_mask(ink.planes, at, view.draws.states, texels);
     }
     for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
@@ -285,13 +282,13 @@ fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, L>) 
     // Called, not pointed at: what others call would have to take all that a pointer hands over.
     let fill = |at: Place, run: &mut [WordOf<L>]| {
         let draws = out.view.draws.states;
-        if ink.dithers {
+        if ink.state.dithers {
             L::fill_opaque(ink.fill, ink.planes, at, draws, true, run);
         } else {
             L::fill(ink.fill, ink.planes, at, draws, run);
         }
     };
-    let Some(how) = ink.blend else {
+    let Some(how) = ink.state.blend else {
         return fill(at, pixels);
     };
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
