@@ -314,27 +314,22 @@ impl<B: LineBuf> Desk<'_, B> {
         result
     }
 
-    /// Throws away what the worker has drawn.
-    fn discard(&mut self) {
-        while let Some(drawn) = self.drawn.dequeue() {
-            // There is room for every buffer.
-            let _ = self.to_worker.enqueue(drawn.buf);
-        }
-    }
-
-    /// Ends the frame, whatever became of it: when the worker has left.
+    /// Ends the frame, whatever became of it: when the worker has left. What it has drawn is thrown away.
     #[inline(never)]
     fn close(&mut self, end: u16, peer: Peer<'_>) -> Result<(), LineError> {
         loop {
-            self.discard();
+            // Asked before, so that all is here that it handed on before it left.
+            let is_left = self.is_left();
+            while let Some(drawn) = self.drawn.dequeue() {
+                // There is room for every buffer.
+                let _ = self.to_worker.enqueue(drawn.buf);
+            }
+            if is_left {
+                return Ok(());
+            }
             if self.is_asked() {
                 self.told = true;
                 self.order.store(OVER, Ordering::Release);
-            }
-            if self.is_left() {
-                // What was handed on before it left.
-                self.discard();
-                return Ok(());
             }
             (peer.wake)();
             if !(peer.wait)() {
