@@ -19,6 +19,7 @@ use crate::scene::{DepthFunction, DrawState, Role};
 use crate::stats::{SpanCounts, SpanPixels};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
 use core::ops::Range;
+use heapless::Vec;
 
 /// What is done with spans of a light, in this order: volumes are counted, then what is seen again is drawn.
 ///
@@ -84,12 +85,9 @@ pub(super) fn count_shadowed<L: Look>(
         let cells = cells_at(known, first);
         let depth = [known.slope.at(first), known.slope.step];
         let seen = |how: Receives| {
-            let mut copy = [0; MOST_TESTED];
             let counts = counts.get(first as usize..(first + part) as usize);
-            let counts = counts.unwrap_or_default();
-            let copy = copy.get_mut(..counts.len()).unwrap_or_default();
-            copy.copy_from_slice(counts);
-            receive(copy, &cells, depth, how)
+            let copy = Vec::<u8, MOST_TESTED>::from_slice(counts.unwrap_or_default());
+            receive(&mut copy.unwrap_or_default(), &cells, depth, how)
         };
         pixels.tested += seen(any).count_ones();
         let seen = seen(how);
