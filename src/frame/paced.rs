@@ -21,16 +21,12 @@ use crate::scene::{NONE, Object, Scene};
 type DrawPaced<L, const WORDS: usize> =
     fn(&mut Renderer<'_, L, WORDS>, &View<'_>, u16, &mut [WordOf<L>], WordOf<L>) -> bool;
 
-/// Checks a scene, as [`Renderer::check`] does.
-type CheckPaced<L, const WORDS: usize> =
-    fn(&Renderer<'_, L, WORDS>, &Scene<'_, '_, L>) -> Result<(), LineError>;
-
 /// What keeps lines within their cost, as functions: a program that names it nowhere does not have its code.
 #[derive(Debug)]
 pub(super) struct Pacer<L: Look, const WORDS: usize> {
     pub(super) draw: DrawPaced<L, WORDS>,
     /// Whether it can draw a scene.
-    pub(super) check: CheckPaced<L, WORDS>,
+    pub(super) check: fn(&Renderer<'_, L, WORDS>, &Scene<'_, '_, L>) -> Result<(), LineError>,
     pub(super) pace: Pace,
     pub(super) paid: Paid,
     /// What is left for the pixels of the line that was begun last.
