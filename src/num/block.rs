@@ -30,13 +30,11 @@ impl<const N: usize> Block<N> {
     /// Normalises `value[i] 2^(exponent - 30)`, rounding to nearest.
     pub fn new(value: [i64; N], exponent: i32) -> Self {
         let mut mantissa = [0; N];
-        match normalise(&value, &mut mantissa) {
-            Some(shift) => Self {
-                mantissa,
-                exponent: (exponent - shift).clamp(-MOST, MOST),
-            },
-            None => Self::ZERO,
-        }
+        let shift = normalise(&value, &mut mantissa);
+        shift.map_or(Self::ZERO, |shift| Self {
+            mantissa,
+            exponent: (exponent - shift).clamp(-MOST, MOST),
+        })
     }
 
     /// Converts floats; `None` when one is not finite or beyond 2^96 in magnitude.
@@ -67,10 +65,11 @@ impl<const N: usize> Block<N> {
 
     /// How many bits the integer part of the sum of all magnitudes needs at most.
     pub fn magnitude_bits(&self) -> i32 {
-        let mut sum = 0u64;
-        for m in self.mantissa {
-            sum += u64::from(m.unsigned_abs());
-        }
+        let sum: u64 = self
+            .mantissa
+            .iter()
+            .map(|m| u64::from(m.unsigned_abs()))
+            .sum();
         64 - sum.leading_zeros() as i32 + self.exponent - 30
     }
 }

@@ -15,10 +15,5 @@ pub fn exp2(log: i32) -> u32 {
     }
     let part = log & 0xFF;
     let part = (256 + part - ((part * (256 - part) * 88) >> 16)) as u64;
-    let value = part.checked_shl(log as u32 >> 8).unwrap_or(u64::MAX) >> 8;
-    if log >= 32 << 8 {
-        u32::MAX
-    } else {
-        value as u32
-    }
+    u32::try_from(part << (log >> 8).min(32) >> 8).unwrap_or(u32::MAX)
 }

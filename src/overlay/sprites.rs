@@ -161,16 +161,15 @@ impl<'o, F: PixelFormat> Overlay<'o, F> {
     /// # Errors
     /// When they are not sorted by their first lines.
     pub fn new(sprites: &'o [Sprite<'o, F::Word>]) -> Result<Self, UnsortedSprites> {
-        let unsorted = sprites.windows(2).position(|pair| pair[1].y < pair[0].y);
-        match unsorted {
-            Some(before) => Err(UnsortedSprites { index: before + 1 }),
-            None => Ok(Self {
-                sprites,
-                first: 0,
-                begun: 0,
-                line: 0,
-            }),
+        if let Some(before) = sprites.windows(2).position(|pair| pair[1].y < pair[0].y) {
+            return Err(UnsortedSprites { index: before + 1 });
         }
+        Ok(Self {
+            sprites,
+            first: 0,
+            begun: 0,
+            line: 0,
+        })
     }
 
     /// Paints over `line` of the picture, all of whose pixels are there, before it is sent.
