@@ -250,7 +250,7 @@ impl<B: LineBuf> Desk<'_, B> {
         if self.told || self.lent.is_full() || !self.is_asked() {
             return;
         }
-        let lent = self.lent.back().map_or(0, |band| band.end);
+        let lent = self.lent.back().map_or(line, |band| band.end);
         let from = lent.max(line).max(self.blank);
         let left = self.end.saturating_sub(from);
         let band = self.band.min((left / 4).max(1));
