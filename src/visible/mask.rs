@@ -203,23 +203,16 @@ impl Mask {
             let all = there == [left, right];
             return if all { Part::All } else { Part::Some };
         }
-        let part = self.part_of_words(start, end);
-        if part == Part::None {
-            each_word(start, end, |word, bits| self.0[word] |= bits);
-        }
-        part
-    }
-
-    /// How much of `start .. end` is covered.
-    #[inline(always)]
-    fn part_of_words(&self, start: u32, end: u32) -> Part {
         let (mut any, mut lack) = (0, 0);
         each_word(start, end, |word, bits| {
             any |= self.0[word] & bits;
             lack |= bits & !self.0[word];
         });
         match (any, lack) {
-            (0, _) => Part::None,
+            (0, _) => {
+                each_word(start, end, |word, bits| self.0[word] |= bits);
+                Part::None
+            }
             (_, 0) => Part::All,
             _ => Part::Some,
         }
