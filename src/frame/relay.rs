@@ -153,8 +153,13 @@ impl<B: LineBuf> Worker<'_, B> {
                 self.say(asks, peer);
                 let (start, end) = (order >> 16 & 0x7FFF, order & 0xFFFF);
                 for line in start as u16..end as u16 {
-                    let Some(mut buf) = self.buffer(peer) else {
-                        return false;
+                    let mut buf = loop {
+                        if let Some(buf) = self.free.dequeue() {
+                            break buf;
+                        }
+                        if !(peer.wait)() {
+                            return false;
+                        }
                     };
                     let have = buf.pixels().len();
                     let result = match buf.pixels().get_mut(..needed) {
@@ -173,18 +178,6 @@ impl<B: LineBuf> Worker<'_, B> {
                 return true;
             } else if !(peer.wait)() {
                 return false;
-            }
-        }
-    }
-
-    /// A buffer, when one is free.
-    fn buffer(&mut self, peer: Peer<'_>) -> Option<B> {
-        loop {
-            if let Some(buf) = self.free.dequeue() {
-                return Some(buf);
-            }
-            if !(peer.wait)() {
-                return None;
             }
         }
     }
