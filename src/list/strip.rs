@@ -34,17 +34,12 @@ impl Strip {
             return (self.have == 3).then_some(self.corners);
         }
         let [a, b, c] = self.corners;
-        let first = if fan {
-            a
-        } else {
-            self.odd = !self.odd;
-            b
-        };
+        self.odd ^= !fan;
+        let first = if fan { a } else { b };
         self.corners = [first, c, index];
-        Some(if self.odd {
-            [c, first, index]
-        } else {
-            [first, c, index]
+        Some(match self.odd {
+            true => [c, first, index],
+            false => self.corners,
         })
     }
 }

@@ -84,11 +84,7 @@ fn halvings(most: u32, least: u32) -> u32 {
         return 0;
     }
     let times = few_leading_zeros(least) - few_leading_zeros(most);
-    if most >> (times & 31) >= least {
-        times
-    } else {
-        times - 1
-    }
+    times - u32::from(most >> (times & 31) < least)
 }
 
 /// `floor(2^(i / 2))`.

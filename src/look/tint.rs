@@ -104,13 +104,10 @@ fn product(pixels: u32, [red, green, blue]: [u32; 3], m: Masks) -> u32 {
 /// [`product`] of pixels whose bytes are in the panel's order where that is `SWAPPED`.
 #[inline(always)]
 fn tinted<const SWAPPED: bool>(pixels: u32, by: [u32; 3], m: Masks) -> u32 {
-    let swap = |w: u32| {
-        if SWAPPED {
-            // And the two pixels with them, there and back.
-            w.swap_bytes()
-        } else {
-            w
-        }
+    let swap = |w: u32| match SWAPPED {
+        // And the two pixels with them, there and back.
+        true => w.swap_bytes(),
+        false => w,
     };
     swap(product(swap(pixels), by, m))
 }

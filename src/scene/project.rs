@@ -221,12 +221,9 @@ impl View {
         // Only ratios count, so z may be as large as it can.
         let up = leading_zeros(p.z as u32) as i32 - 1;
         let more = up - finer;
-        let scaled = |v: i32| {
-            if more < 0 {
-                rounded(v, -more)
-            } else {
-                v << (more & 31)
-            }
+        let scaled = |v: i32| match more {
+            ..=-1 => rounded(v, -more),
+            _ => v << (more & 31),
         };
         let (x, y) = (scaled(p.x), scaled(p.y));
         self.place(x, y, p.z << (up & 31), up)

@@ -6,7 +6,7 @@
 use super::check::check_alphas;
 use super::pass::{Own, Pass};
 use super::project::{OnScreen, Point};
-use super::{Draw, DrawError, ORIGIN, Scene, Shading, Skin, TexturePlace, Vertex, WordOfNormal};
+use super::{Draw, DrawError, ORIGIN, Scene, Shading, TexturePlace, Vertex, WordOfNormal};
 use crate::geometry::{Colour, Coordinate, Cull, Faces, Mesh};
 use crate::num::mul_high_unsigned;
 
@@ -58,17 +58,12 @@ impl<'t, L> Scene<'_, 't, L> {
     ) -> Result<(), DrawError> {
         check_flat(draw, 3 * faces.len())?;
         let is_flat = draw.shading == Shading::Flat;
-        let draw = Draw {
-            mesh: Mesh::EMPTY,
-            light: None,
-            lights: None,
-            texgen: None,
-            texture: draw.texture.map(|skin| Skin {
-                places: &[],
-                ..skin
-            }),
-            ..*draw
-        };
+        let mut draw = *draw;
+        (draw.light, draw.lights, draw.texgen) = (None, None, None);
+        draw.mesh = Mesh::EMPTY;
+        if let Some(skin) = &mut draw.texture {
+            skin.places = &[];
+        }
         let is_plain = self.is_plain(&draw);
         let middle = [self.screen.width(), self.screen.height()].map(|s| 4 * i32::from(s));
         self.assemble_by(&draw, textured, None, faces.len() as u32, |scene, pass| {

@@ -211,12 +211,9 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
             let source = self.pump.filling.as_mut().map(LineBuf::pixels);
             let rows = source.and_then(|words| words.get(from..)).unwrap_or(&[]);
             let run_width = usize::from(run.width);
-            for (to, row) in other
-                .pixels()
-                .chunks_exact_mut(run_width.max(1))
-                .zip(rows.chunks(width.max(1)))
-                .take(run.height.into())
-            {
+            let rows = rows.chunks(width.max(1)).take(run.height.into());
+            let to = other.pixels().chunks_exact_mut(run_width.max(1));
+            for (to, row) in to.zip(rows) {
                 if let Some(row) = row.get(..run_width) {
                     to.copy_from_slice(row);
                 }
