@@ -423,17 +423,18 @@ impl Sides {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::random::Rng;
     use crate::scene::NONE;
 
-    /// The size of a triangle with its first corner at the picture's first pixel, and the others so far from there.
-    fn size(to: [[u32; 2]; 2]) -> Size {
-        let first = 8 * ORIGIN as u32;
+    /// What is said of a triangle with its first corner so far from the picture's first pixel, and the others so far from
+    /// there.
+    fn ask<T>(first: i32, to: [[i32; 2]; 2], of: impl Fn(&Triangle<'_>) -> T) -> T {
         let vertices = [[0; 2], to[0], to[1]].map(|[x, y]| Vertex {
-            place: (first + y) << 16 | (first + x),
+            place: ((8 * ORIGIN + y) << 16 | (8 * ORIGIN + first + x)) as u32,
             depth: 0,
             colour: 0,
         });
-        let triangle = Triangle {
+        of(&Triangle {
             vertex: [&vertices[0], &vertices[1], &vertices[2]],
             object: &Object {
                 corner: [0, 1, 2],
@@ -444,8 +445,26 @@ mod tests {
                 width: 320,
                 height: 240,
             },
-        };
-        triangle.size(triangle.area())
+        })
+    }
+
+    /// Kills: sides that are longer than 511 units and told to be plain, and a border of the picture that is not looked at.
+    #[test]
+    fn how_sides_are_evaluated_is_told_by_the_farthest_corner_as_by_all() {
+        let mut rng = Rng(31);
+        let mut is_plain = [0; 2];
+        for _ in 0..200_000 {
+            let mut way = || [rng.below(700) as i32 - 350, rng.below(300) as i32];
+            let to = [way(), way()];
+            let first = rng.below(8 * 320) as i32;
+            let got = ask(first, to, |t| t.way());
+            assert_eq!(got, ask(first, to, |t| t.way_of_any()), "{first} {to:?}");
+            is_plain[usize::from(got == Way::PLAIN)] += 1;
+        }
+        assert!(is_plain.iter().all(|&some| some > 20_000), "{is_plain:?}");
+        for (end, want) in [(255, Way::PLAIN), (256, Way::new(Kind::Tall, false))] {
+            assert_eq!(ask(800, [[end, 0], [-end - 1, 0]], |t| t.way()), want);
+        }
     }
 
     /// Kills: other limits of an area, of the way to a corner, and of sides.
@@ -468,7 +487,7 @@ mod tests {
             ([[512, 0], [0, 8]], Size::Large),
             ([[0, 512], [8, 512]], Size::Large),
         ] {
-            assert_eq!(size(to), want, "{to:?}");
+            assert_eq!(ask(0, to, |t| t.size(t.area())), want, "{to:?}");
         }
     }
 }
