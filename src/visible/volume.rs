@@ -130,6 +130,27 @@ mod tests {
         }
     }
 
+    /// Kills: another comparison for the commonest function, and its loop for any other.
+    #[test]
+    fn counts_change_where_depths_pass_by_any_function() {
+        use DepthFunction as D;
+        let (cells, at, step) = ([7, 8, 9, 10, 11], 11, u32::MAX);
+        for (passes, want) in [
+            (D::NEVER, [0, 0, 0, 0, 0]),
+            (D::FARTHER, [0, 0, 0, 5, 5]),
+            (D::EQUAL, [0, 0, 5, 0, 0]),
+            (D::FARTHER_OR_EQUAL, [0, 0, 5, 5, 5]),
+            (D::NEARER, [5, 5, 0, 0, 0]),
+            (D::DIFFERENT, [5, 5, 0, 5, 5]),
+            (D::NEARER_OR_EQUAL, [5, 5, 5, 0, 0]),
+            (D::ALWAYS, [5; 5]),
+        ] {
+            let mut counts = [0; 5];
+            count(&mut counts, &cells, [at, step], passes, 5);
+            assert_eq!(counts, want, "{passes:?}");
+        }
+    }
+
     /// Faces one behind the other, against what a ray through each pixel meets; then surfaces of all kinds, drawn again.
     #[test]
     fn counts_are_those_of_rays_and_say_who_is_drawn() {
