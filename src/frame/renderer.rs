@@ -199,7 +199,7 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) ordered: [u32; WORDS],
     /// Whether most spans of the last line met others.
     pub(super) crowded: bool,
-    /// Whether so much had no slot on the last line that slots are in order of submission.
+    /// Whether the cells may not hold all that has no slot on the line drawn last, so that slots were in order of submission.
     pub(super) dense: bool,
     /// Whether the order of the last line is that of the next, if it has the same triangles.
     pub(super) lasting: bool,

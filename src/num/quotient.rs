@@ -1,5 +1,5 @@
 //! Quotients of 64 bits for what is done once a draw call or for few triangles: small, not fast; and those of triangles'
-//! sides, of 32 bits, which processors without a divider find by [`short`].
+//! sides, of 32 bits. Processors without a divider find both by [`short`].
 //!
 //! The division of 64 bits that a compiler brings takes 1 KB of code.
 

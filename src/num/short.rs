@@ -81,7 +81,7 @@ pub(super) const fn divide(n: u32, d: u32) -> (u32, u32) {
     (quotient, rest)
 }
 
-/// [`divide`]: one copy for all sides of triangles.
+/// [`divide`]: one copy for all that is divided.
 #[inline(never)]
 pub(super) fn divide_called(n: u32, d: u32) -> (u32, u32) {
     divide(n, d)
