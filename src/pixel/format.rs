@@ -274,8 +274,15 @@ impl<const ORDER: u8> PixelFormat for Rgb565Bytes<ORDER> {
 
     #[inline(always)]
     fn of_word(word: u32) -> u16 {
-        // Of a pixel that is there twice, the bytes between are its own swapped.
-        (twice_565(word) >> if Self::IS_NATIVE { 0 } else { 8 }) as u16
+        // The upper bits of the three fields, each at its place in one half or the other.
+        let fields = word & between::FIELDS_565.rotate_left(16);
+        let pixel = match (Self::IS_NATIVE, SHORT) {
+            (true, _) => fields | fields >> 16,
+            (false, true) => swapped_halves(fields | fields >> 16),
+            // Of a pixel that is there twice, the bytes between are its own swapped: here no instruction of their own.
+            (false, false) => (fields | fields.rotate_right(16)) >> 8,
+        };
+        pixel as u16
     }
 
     #[inline(always)]
@@ -310,11 +317,4 @@ impl<const ORDER: u8> PixelFormat for Rgb565Bytes<ORDER> {
 #[inline(always)]
 fn swapped_halves(word: u32) -> u32 {
     word.swap_bytes().rotate_left(16)
-}
-
-/// A pixel in both halves of a word: the upper bits of the three fields, each at its place in one half or the other.
-#[inline(always)]
-fn twice_565(word: u32) -> u32 {
-    let fields = word & between::FIELDS_565.rotate_left(16);
-    fields | fields.rotate_right(16)
 }
