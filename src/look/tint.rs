@@ -23,7 +23,7 @@
 //! shaded as one that is half a pixel away.
 
 use super::ramp::Pair;
-use crate::num::rolled;
+use crate::num::{SHORT, rolled};
 use crate::pixel::{PixelFormat, Rgb565Bytes, threshold};
 use core::hint::black_box as unknown;
 
@@ -169,7 +169,7 @@ fn gouraud_long<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Sh
     if step.red_blue | step.green == 0 {
         return even_long::<SWAPPED>(run, shade, step);
     }
-    let m = MASKS.unknown();
+    let m = if SHORT { MASKS } else { MASKS.unknown() };
     let mut eights = run.chunks_exact_mut(8);
     for eight in eights.by_ref() {
         // Unknown to the compiler, which would keep multiples of it.
