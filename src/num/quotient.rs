@@ -62,16 +62,20 @@ pub fn quotient_16(n: i32, by: i32) -> i32 {
     }
 }
 
-/// `dx / height` rounded down, and what is left of it in 2^-22: of `dx` with 16 bits and a sign and a height of 1 to
-/// 1,023, or of 0 and a height of up to 16 bits.
+/// `dx / height` rounded down, and what is left of it in 2^-22, to nearest: of `dx` with 16 bits and a sign and a height of 1
+/// to 2,047, or of 0 and a height of up to 16 bits.
 #[inline(always)]
 pub fn slope_and_rest(dx: i32, height: i32) -> (i32, i32) {
     if SHORT {
         return short::slope_and_rest(dx, height as u32);
     }
     let whole = dx.div_euclid(height);
-    let rest = ((dx - whole * height) as u32) << 22;
-    (whole, (rest / height as u32) as i32)
+    // Of 11 bits of a rest one has no room more than 21 bits farther up: the last bit, and what is rounded, follow.
+    let (rest, height) = (((dx - whole * height) as u32) << 21, height as u32);
+    let part = rest / height;
+    let rest = 4 * (rest - part * height);
+    let more = u32::from(rest >= height) + u32::from(rest >= 3 * height);
+    (whole, (2 * part + more) as i32)
 }
 
 #[cfg(test)]

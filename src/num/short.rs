@@ -103,8 +103,9 @@ pub(super) fn floor(n: i32, by: u32) -> (i32, u32, u32) {
 pub(super) fn slope_and_rest(dx: i32, height: u32) -> (i32, i32) {
     let (whole, rest, divisor) = floor(dx, height);
     let (upper, rest) = divide_called(rest << 11, divisor);
-    let (lower, _) = divide_called(rest << 11, divisor);
-    (whole, (upper << 11 | lower) as i32)
+    let (lower, rest) = divide_called(rest << 11, divisor);
+    let more = u32::from(2 * rest >= divisor);
+    (whole, ((upper << 11 | lower) + more) as i32)
 }
 
 /// One Newton step from `seed = (2^32 - 1) / (a >> 16)`, which left `rest`: see
@@ -227,13 +228,16 @@ mod tests {
     #[test]
     fn every_height_has_its_slopes() {
         let mut rng = Rng(53);
-        for height in 1..1024 {
+        for height in 1..2048 {
             let some = [(); 60].map(|()| rng.below(1 << 16) as i32 - (1 << 15));
             let ends = [0, 1, -1, height - 1, -height, 0x7FFF, -0x8000];
             for dx in some.into_iter().chain(ends) {
                 let (whole, rest) = (dx.div_euclid(height), dx.rem_euclid(height) as u32);
-                let want = (whole, ((rest << 22) / height as u32) as i32);
+                let halves = (u64::from(rest) << 23) / height as u64;
+                let want = (whole, (halves + 1 >> 1) as i32);
                 assert_eq!(slope_and_rest(dx, height as u32), want, "{dx} / {height}");
+                // As where a processor divides.
+                assert_eq!(crate::num::slope_and_rest(dx, height), want, "{dx} / {height}");
             }
         }
         for height in 1..1 << 16 {

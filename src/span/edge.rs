@@ -7,7 +7,7 @@
 //! | kind | of sides | set-up, M4 | a line |
 //! |---|---|---|---|
 //! | [`Kind::Short`] | up to 511 units of 1/8 pixel either way | 11 instructions, from a table | one multiply-add |
-//! | [`Kind::Tall`] | below 1,024 units of height, or upright | two divisions; on a Cortex-M0+ three digits | one multiply-add |
+//! | [`Kind::Tall`] | up to 2,032 units of height, or upright | two divisions; on a Cortex-M0+ three digits | one multiply-add |
 //! | [`Kind::Divided`] | all others, and what lies too far beside the picture | none | one division |
 //!
 //! Short: the slope is `round(dx 2^19 / dy)` a unit of height by a reciprocal of 31 bits, less than
@@ -62,6 +62,9 @@ pub(crate) fn down(difference: u32) -> i32 {
 }
 
 impl Edge {
+    /// Units of height up to which a side that leans is exact with a slope.
+    pub(crate) const TALLEST: i32 = 2032;
+
     /// A side that is never asked.
     pub(crate) const NONE: Self = Self { at: 0, slope: 0 };
 
@@ -92,13 +95,14 @@ impl Edge {
         }
     }
 
-    /// A side of at most 127 lines, or a vertical one of any height, `dy` above 0.
+    /// A side of at most [`TALLEST`](Self::TALLEST) units of height, or a vertical one of any, `dy` above 0.
     ///
-    /// Error: the slope is a floor to 2^-22 column, so after 127 lines the line lies less than 130 units of 2^-22 below
-    /// the truth; the bias is 256 and the truth a multiple of at least 512 of them.
+    /// Error: the slope is within half a unit of 2^-22 column of the truth, and the start is rounded down, so after 254
+    /// lines the line lies less than 128 units above the truth, or 129 below; the bias is 129, and the truth a multiple
+    /// of at least 258 of them.
     fn tall(a: u32, dx: i32, dy: i32, origin: i32) -> Self {
         let (x, y) = ((a & 0xFFFF) as i32, (a >> 16) as i32);
-        let start = ((x + 4 - 8 * origin) << 19).wrapping_add(256);
+        let start = ((x + 4 - 8 * origin) << 19).wrapping_add(129);
         // dy is above 0; said so that no check for it is compiled in.
         let (whole, part) = slope_and_rest(dx, dy.max(1));
         let first = (y + 4) >> 3;
@@ -192,7 +196,7 @@ mod tests {
             let mut at = |low: i32, size: u32| (8 * low + rng.below(size) as i32) as u32;
             let (xa, xb) = (at(ORIGIN, 2560), at(ORIGIN, 2560));
             let ya = at(ORIGIN - 20, 1900);
-            let yb = ya + 1 + rng.below(1000);
+            let yb = ya + 1 + rng.below(Edge::TALLEST as u32);
             let (a, b) = (ya << 16 | xa, yb << 16 | xb);
             let tall = Edge::of_kind(Kind::Tall, a, b, ORIGIN);
             let divided = Edge::of_kind(Kind::Divided, a, b, ORIGIN);

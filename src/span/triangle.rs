@@ -224,8 +224,8 @@ impl Triangle<'_> {
         if size(d1) | size(d2) | size(d3) < 512 {
             return Kind::Short;
         }
-        let holds = |d: u32| down(d) < 1024 || across(d) == 0;
-        if holds(d1) && holds(d2) && magnitude(down(d3)) < 1024 {
+        let holds = |d: u32| down(d) <= Edge::TALLEST || across(d) == 0;
+        if holds(d1) && holds(d2) && magnitude(down(d3)) <= Edge::TALLEST {
             Kind::Tall
         } else {
             Kind::Divided
