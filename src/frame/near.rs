@@ -67,11 +67,12 @@ pub(super) struct Taken {
 }
 
 impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
-    /// Slots with these keys, which fall, and nothing without a slot.
-    pub(super) fn of(cache: &'a Cache<Active<L::Planes>, WORDS>, keys: &'a [u32]) -> Self {
+    /// The first slots of the order, so many, and nothing without a slot.
+    #[inline(always)]
+    pub(super) fn of(cache: &'a Cache<Active<L::Planes>, WORDS>, slots: usize) -> Self {
         Self {
             cache,
-            keys,
+            keys: cache.order.as_flattened().get(..slots).unwrap_or_default(),
             cells: &[],
             guests: 0,
         }
@@ -424,13 +425,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         guests: usize,
         out: &mut Line<'_, '_, L>,
     ) -> usize {
-        let cache = &*self.cache;
-        let field = Field::<L, WORDS> {
-            cache,
-            keys: cache.order.as_flattened().get(..slots).unwrap_or_default(),
-            cells,
-            guests,
-        };
+        let mut field = Field::of(self.cache, slots);
+        (field.cells, field.guests) = (cells, guests);
         let mut drawing = Drawing {
             mask: drawn_in(self.crowded, &mut self.covered, &mut self.written),
             counts: &mut self.counts,

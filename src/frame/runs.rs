@@ -252,10 +252,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     ) {
         let mut free = out.pixels.len() as u32;
         let cache = &*self.cache;
-        let keys = cache.order.as_flattened().get(..slots);
-        let keys = keys.unwrap_or_default();
-        let field = Field::of(cache, keys);
-        for (k, &key) in keys.iter().enumerate() {
+        let field = Field::of(cache, slots);
+        for (k, &key) in field.later(0).iter().enumerate() {
             let (number, span) = (number_of::<WORDS>(key), field.span(key));
             let far = cache.far.as_flattened().get(number);
             let (Some((slot, _)), Some(&far)) = (cache.at(number), far) else {

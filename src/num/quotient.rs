@@ -42,8 +42,7 @@ fn with_rest(number: u32, by: u32) -> (u32, u32) {
     if SHORT {
         return short::divide_called(number, by);
     }
-    let quotient = number / by;
-    (quotient, number - quotient * by)
+    (number / by, number % by)
 }
 
 /// [`divide`] of a number with a sign, rounded towards 0.

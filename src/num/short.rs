@@ -234,10 +234,14 @@ mod tests {
             for dx in some.into_iter().chain(ends) {
                 let (whole, rest) = (dx.div_euclid(height), dx.rem_euclid(height) as u32);
                 let halves = (u64::from(rest) << 23) / height as u64;
-                let want = (whole, (halves + 1 >> 1) as i32);
+                let want = (whole, ((halves + 1) >> 1) as i32);
                 assert_eq!(slope_and_rest(dx, height as u32), want, "{dx} / {height}");
                 // As where a processor divides.
-                assert_eq!(crate::num::slope_and_rest(dx, height), want, "{dx} / {height}");
+                assert_eq!(
+                    crate::num::slope_and_rest(dx, height),
+                    want,
+                    "{dx} / {height}"
+                );
             }
         }
         for height in 1..1 << 16 {

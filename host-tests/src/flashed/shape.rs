@@ -122,13 +122,13 @@ fn way(triangle: &FiledTriangle, size: usize, reach: f64) -> usize {
     if pixels >= STEEP { 3 } else { 4 }
 }
 
-/// Whether a side leans and has 128 lines or more.
+/// Whether a side leans and has more than 254 lines, which is 2,032 units.
 fn is_tall(triangle: &FiledTriangle) -> bool {
     let [a, b, c] = triangle.corners;
     let sides = [(a, b), (a, c), (b, c)];
     sides
         .into_iter()
-        .any(|(p, q)| p.x != q.x && i32::from(q.y).abs_diff(p.y.into()) >= 1024)
+        .any(|(p, q)| p.x != q.x && i32::from(q.y).abs_diff(p.y.into()) > 2032)
 }
 
 /// Columns of a triangle on a line: those whose middles lie between its sides.
