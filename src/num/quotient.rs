@@ -71,10 +71,9 @@ pub fn slope_and_rest(dx: i32, height: i32) -> (i32, i32) {
     let whole = dx.div_euclid(height);
     // Of 11 bits of a rest one has no room more than 21 bits farther up: the last bit, and what is rounded, follow.
     let (rest, height) = (((dx - whole * height) as u32) << 21, height as u32);
-    let part = rest / height;
-    let rest = 4 * (rest - part * height);
-    let more = u32::from(rest >= height) + u32::from(rest >= 3 * height);
-    (whole, (2 * part + more) as i32)
+    let (part, rest) = (rest / height, rest % height);
+    let nearest = (4 * rest + height) / (2 * height);
+    (whole, (2 * part + nearest) as i32)
 }
 
 #[cfg(test)]
