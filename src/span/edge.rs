@@ -7,7 +7,7 @@
 //! | kind | of sides | set-up, M4 | a line |
 //! |---|---|---|---|
 //! | [`Kind::Short`] | up to 511 units of 1/8 pixel either way | 11 instructions, from a table | one multiply-add |
-//! | [`Kind::Tall`] | up to 2,032 units of height, or upright | two divisions; on a Cortex-M0+ three digits | one multiply-add |
+//! | [`Kind::Tall`] | up to 2,032 units of height, or upright | three divisions; on a Cortex-M0+ three digits | one multiply-add |
 //! | [`Kind::Divided`] | all others, and what lies too far beside the picture | none | one division |
 //!
 //! Short: the slope is `round(dx 2^19 / dy)` a unit of height by a reciprocal of 31 bits, less than
@@ -98,8 +98,8 @@ impl Edge {
     /// A side of at most [`TALLEST`](Self::TALLEST) units of height, or a vertical one of any, `dy` above 0.
     ///
     /// Error: the slope is within half a unit of 2^-22 column of the truth, and the start is rounded down, so after 254
-    /// lines the line lies less than 128 units above the truth, or 129 below; the bias is 129, and the truth a multiple
-    /// of at least 258 of them.
+    /// lines the line lies at most 127 units above the truth, or 128 below; the bias is 129, and the truth a multiple of
+    /// at least 258 of them.
     fn tall(a: u32, dx: i32, dy: i32, origin: i32) -> Self {
         let (x, y) = ((a & 0xFFFF) as i32, (a >> 16) as i32);
         let start = ((x + 4 - 8 * origin) << 19).wrapping_add(129);
