@@ -61,8 +61,8 @@ pub fn quotient_16(n: i32, by: i32) -> i32 {
     }
 }
 
-/// `dx / height` rounded down, and what is left of it in 2^-22, to nearest: of `dx` with 16 bits and a sign and a height of 1
-/// to 2,047, or of 0 and a height of up to 16 bits.
+/// `dx / height` rounded down, and what is left of it in 2^-22, to nearest: of `dx` with 16 bits and a sign and a height
+/// of 1 to 2,047, or of 0 and a height of up to 16 bits.
 #[inline(always)]
 pub fn slope_and_rest(dx: i32, height: i32) -> (i32, i32) {
     if SHORT {

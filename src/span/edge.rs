@@ -97,9 +97,9 @@ impl Edge {
 
     /// A side of at most [`TALLEST`](Self::TALLEST) units of height, or a vertical one of any, `dy` above 0.
     ///
-    /// Error: the slope is within half a unit of 2^-22 column of the truth, and the start is rounded down, so after 254
-    /// lines the line lies at most 127 units above the truth, or 128 below; the bias is 129, and the truth a multiple of
-    /// at least 258 of them.
+    /// Error: the slope is within half a unit of 2^-22 column of the truth, and the start is rounded down, so after
+    /// 254 lines the line lies at most 127 units above the truth, or 128 below; the bias is 129, and the truth a multiple
+    /// of at least 258 of them.
     fn tall(a: u32, dx: i32, dy: i32, origin: i32) -> Self {
         let (x, y) = ((a & 0xFFFF) as i32, (a >> 16) as i32);
         let start = ((x + 4 - 8 * origin) << 19).wrapping_add(129);
